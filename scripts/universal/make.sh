@@ -8,7 +8,7 @@ here=$(dirname "$(realpath "$0")") root=$(realpath "$(dirname "$0")/../..")
 rockfrag=$(realpath "$1") at2=${3:+$(realpath "$3")} table="$root/data/records.csv"
 mkdir -p "$2" && cd "$2"
 export OPENBLAS_NUM_THREADS=1
-call() { "$rockfrag" "$@" --quiet --progress never > /dev/null; }
+call() { "$rockfrag" "$@" --quiet > /dev/null; }
 motions() { # NAME SEED SAMPLES SUITES
     call sample-scenarios --seed "$2" --samples "$3" --out "$1.scenarios.parquet"
     call synthesize-motions --in "$1.scenarios.parquet" --suite "$4" --seed "$2" --out "$1.motions.parquet"

@@ -68,9 +68,6 @@ enum Tool {
         /// Folder to write into; nothing there is replaced
         #[arg(long, value_name = "DIR", default_value = ".")]
         out: PathBuf,
-        /// Print nothing
-        #[arg(long)]
-        quiet: bool,
     },
     /// Show what a file holds and where it came from
     Inspect(inspect::Inspect),
@@ -94,7 +91,6 @@ const USUAL: &str = "about all author candidate column depth dt eta fits from ha
                      pex pga pgv pro re rotate sa samples scale seed site structure structures suite \
                      target terms title to trace unit vs30 width";
 
-/// Describes all stages and their options, as JSON.
 pub fn describe() -> Value {
     let stages = stages::all().into_iter().map(|StageKind { command, .. }| {
         let options: Vec<Value> = command.get_arguments().map(option).collect();
@@ -169,10 +165,7 @@ fn run(arguments: impl IntoIterator<Item = OsString>) -> anyhow::Result<u8> {
             print(&plan, Format::Text)?;
             return Ok(u8::from(check && is_due));
         }
-        Tool::Init { start, out, quiet } => {
-            let written = init::init(start, &out)?;
-            if quiet { String::new() } else { written }
-        }
+        Tool::Init { start, out } => init::init(start, &out)?,
         Tool::Inspect(inspect) => return print(&inspect.run()?, inspect.format).map(|()| 0),
         Tool::Completions { shell } => {
             let mut script = Vec::new();
@@ -215,7 +208,6 @@ fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
     print(&printed, calls[answer].stage.format())
 }
 
-/// Prints the weightiest warnings.
 fn warn(warnings: &Warnings) {
     let lines = warnings.lines();
     for (after, line) in (0..lines.len()).rev().zip(&lines).take(SHOWN) {

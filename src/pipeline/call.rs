@@ -46,12 +46,10 @@ pub struct Done {
 }
 
 impl Plan {
-    /// Returns the provenance of one of the outputs.
     pub fn output(&self, output: usize) -> Provenance {
         Provenance { output, ..self.made.clone() }
     }
 
-    /// Returns the keys of the outputs.
     pub fn keys(&self) -> impl Iterator<Item = (PathBuf, String)> + '_ {
         let outputs = self.outputs.iter().enumerate();
         outputs.map(|(place, path)| (resolved(path), self.output(place).key_of_content()))
@@ -72,7 +70,10 @@ impl Plan {
                 _ if common.force => continue,
                 _ if real.metadata()?.permissions().readonly() => "is read-only; --force replaces it",
                 _ if self.is_ours(out, common.is_run) => continue,
-                _ => return Err(TableError::not_ours(out).into()),
+                _ => {
+                    let problem = "is there already, not known as rockfrag's; --force replaces it";
+                    return Err(TableError::table(out, problem).into());
+                }
             };
             return Err(UsageError::because(format!("{}: {problem}", out.display())));
         }

@@ -52,9 +52,6 @@ pub struct Common {
     /// Print no progress
     #[arg(long)]
     pub quiet: bool,
-    /// Progress bars: auto or never
-    #[arg(long, value_name = "WHEN", default_value = "auto", value_parser = bars)]
-    pub progress: String,
     /// Whether a pipeline file is run, which writes the views again that it names.
     #[arg(skip)]
     #[serde(skip)]
@@ -62,11 +59,6 @@ pub struct Common {
     #[arg(skip)]
     #[serde(skip)]
     pub observed: Arc<Observed>,
-}
-
-fn bars(text: &str) -> Result<String, &'static str> {
-    let is_known = ["auto", "never"].contains(&text);
-    is_known.then(|| text.to_string()).ok_or("expected auto or never")
 }
 
 /// What another program sees of the progress of a stage, and how it stops the stage.
@@ -129,7 +121,6 @@ impl Context {
         Ok(writer)
     }
 
-    /// Ends a table with its provenance.
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
         let (summary, warnings) = (summary.to_string(), self.warnings());
@@ -174,7 +165,6 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a file that is no table.
     pub fn write_file(&self, path: &Path, content: &[u8]) -> anyhow::Result<()> {
         self.common.observed.expect_running()?;
         locked(&self.written).push(PendingFile::new(path, content)?);
@@ -187,12 +177,10 @@ impl Context {
         Ok(self.finish(writer, summary)?)
     }
 
-    /// Begins progress over `total` steps.
     pub fn bar(&self, total: usize) -> Progress {
         self.common.observed.total.fetch_add(total, Ordering::Relaxed);
-        let is_wanted = self.common.progress != "never" && !self.common.quiet;
         // Without a terminal, indicatif draws nothing.
-        let bar = if is_wanted { ProgressBar::new(total as u64) } else { ProgressBar::hidden() };
+        let bar = if self.common.quiet { ProgressBar::hidden() } else { ProgressBar::new(total as u64) };
         let style = ProgressStyle::with_template("{msg:20} {bar:40} {human_pos}/{human_len}  {eta} left");
         let bar = bar.with_style(style.expect("a template")).with_message(self.plan.made.stage.clone());
         Progress { bar, observed: self.common.observed.clone() }

@@ -1,12 +1,4 @@
 //! The frame of all stages: options, up-to-date check, output, progress.
-//!
-//! ```text
-//! paths    what a stage reads, and the names of what it writes
-//! options  what is given to a stage, in one form; types of options, and mistakes in them
-//! call     one call of a stage, which runs unless its files are up to date
-//! context  output, progress and warnings of the running stage
-//! stream   work on all threads while others read and write
-//! ```
 
 pub mod call;
 pub mod context;
@@ -33,7 +25,6 @@ pub trait Stage {
         Vec::new()
     }
 
-    /// Returns all files that it reads.
     fn inputs(&self) -> Vec<Read>;
 
     /// Returns all files that it writes, the last one written last; none if it only prints.
@@ -55,7 +46,6 @@ pub trait Stage {
         Ok(Some(summary.to_string()))
     }
 
-    /// Returns the form of what it prints.
     fn format(&self) -> Format {
         Format::Text
     }

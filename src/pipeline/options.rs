@@ -31,7 +31,6 @@ pub enum Rule {
     Needs(&'static [&'static str], &'static [&'static str]),
 }
 
-/// Finds the first of some options that is given.
 fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
     let is_given = |option: &&str| given.get(*option).is_some_and(|value| *value != Value::Bool(false));
     options.iter().copied().find(is_given)
@@ -73,7 +72,6 @@ pub fn merge(file: &Given, user: &Given, rules: &[Rule]) -> Given {
     kept
 }
 
-/// The name of an option.
 pub fn name_of(arg: &Arg) -> &str {
     arg.get_long().unwrap_or(arg.get_id().as_str())
 }
@@ -244,7 +242,6 @@ pub fn steps(
     }
 }
 
-/// Parses periods of spectral accelerations, s.
 pub fn periods(text: &str) -> Result<Steps, &'static str> {
     steps(0.01..=20.0, "expected periods in s, from 0.01 to 20")(text)
 }

@@ -20,17 +20,14 @@ pub fn pipelined<A: Send, B: Send>(
     done.into_iter().try_for_each(sink)
 }
 
-/// Returns the items of `source` in batches of `size`, up to the first error.
-pub fn batches<A, E: Into<anyhow::Error>>(
-    source: impl Iterator<Item = Result<A, E>>,
+/// Returns the items of `source` in batches of `size`.
+pub fn batches<A>(
+    source: impl Iterator<Item = A>,
     size: usize,
 ) -> impl Iterator<Item = anyhow::Result<Vec<A>>> {
     let mut source = source.fuse();
     std::iter::from_fn(move || {
-        let batch: Result<Vec<A>, E> = source.by_ref().take(size).collect();
-        match batch {
-            Ok(batch) if batch.is_empty() => None,
-            batch => Some(batch.map_err(Into::into)),
-        }
+        let batch: Vec<A> = source.by_ref().take(size).collect();
+        (!batch.is_empty()).then_some(Ok(batch))
     })
 }

@@ -64,9 +64,8 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
-        if observed::is_list(&self.input)? {
+        if let Some((outcomes, unused)) = observed::read(&self.input)? {
             // What stood and what fell gives no curve.
-            let (outcomes, unused) = observed::read(&self.input)?;
             context.warn(unused);
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
         } else {

@@ -9,7 +9,8 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
 use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
-    CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure, simulate_all,
+    Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
+    simulate_all,
 };
 use rockfrag_core::statistics::{FEW_EVENTS, FitStatus};
 use rockfrag_core::units::G_M_S2;
@@ -72,14 +73,13 @@ pub struct Ida {
     structures: StructureArgs,
 }
 
-/// A response at an intensity, and the share of those up to the next that overturn.
+/// A response at an intensity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct StripeRow {
     response: ResponseRow,
     measure: ScaledMeasure,
     intensity: f64,
     scale: f64,
-    overturning_above: Option<f64>,
 }
 
 struct Analysed {
@@ -196,15 +196,14 @@ impl Ida {
                 structure: structure.name.clone(),
                 measure,
                 unscaled: *unscaled,
-                found: scan.capacity(responses),
+                found: Capacity::of(responses),
             };
             let overturns = at_levels.clone().map(ScanResponse::overturns).collect();
             scanned.push(Scanned { capacity, overturns });
-            let shares = scan.overturning_shares(responses).into_iter().map(Some).chain([None]);
-            for (&ScanResponse { intensity, response }, overturning_above) in at_levels.zip(shares) {
+            for &ScanResponse { intensity, response } in at_levels {
                 let scale = intensity / unscaled;
                 let response = measures.scaled(scale).response_row(motion, structure, response);
-                stripes.push(StripeRow { response, measure, intensity, scale, overturning_above });
+                stripes.push(StripeRow { response, measure, intensity, scale });
             }
         }
         Ok(Analysed { stripes: rows::batch(&stripes)?, scanned, warnings: warned })

@@ -46,10 +46,8 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
     let (mut files, mut text) = (Vec::new(), String::new());
     for (name, content) in start.files() {
         let path = folder.join(name);
-        if path.symlink_metadata().is_ok() {
-            let problem = "is there already; choose another folder with --out";
-            return Err(UsageError::because(format!("{}: {problem}", path.display())));
-        }
+        let problem = format!("{}: is there already; choose another folder with --out", path.display());
+        anyhow::ensure!(path.symlink_metadata().is_err(), UsageError::because(problem));
         files.push(PendingFile::new(&path, content.replace("TODAY", &today).as_bytes())?);
         writeln!(text, "wrote {}", number::path(&path))?;
     }

@@ -118,9 +118,7 @@ impl StageKind {
 /// The options of a stage that is given none.
 pub fn default_options(stage: &str) -> BTreeMap<String, Value> {
     let kind = all().into_iter().find(|kind| kind.name() == stage);
-    // None of the files that import-motions requires.
-    let none = Given::from_iter([("files".to_string(), Value::Array(Vec::new()))]);
-    let call = kind.and_then(|kind| kind.call(&Given::new(), &none, Path::new("")).ok());
+    let call = kind.and_then(|kind| kind.call(&Given::new(), &Given::new(), Path::new("")).ok());
     call.map_or(BTreeMap::new(), |call| call.options)
 }
 

@@ -12,7 +12,6 @@ use parquet::file::metadata::{ColumnChunkMetaData, KeyValue, ParquetMetaData, Ro
 
 use super::provenance::own_entry;
 
-/// Key of the checksums among the key-value metadata.
 const KEY: &str = "rockfrag_checksums";
 /// Hexadecimal digits of a checksum.
 const DIGITS: usize = 8;

@@ -60,7 +60,6 @@ impl Batch {
         self.required(name, self.texts(name)?)
     }
 
-    /// Returns the lists of numbers of a column.
     pub fn lists(&self, name: &str) -> Result<Vec<Vec<f64>>, TableError> {
         let Some(column) = self.rows.column_by_name(name) else {
             return Err(TableError::missing_column(&self.path, name));
@@ -78,7 +77,6 @@ impl Batch {
         read.collect()
     }
 
-    /// Makes the structures of the rows, which have these names.
     pub fn structures(&self, names: &[Cow<str>]) -> Result<Vec<Structure>, TableError> {
         let (p, alpha) = (self.required_numbers("p_rad_s")?, self.required_numbers("alpha_rad")?);
         let eta = self.required_numbers("eta")?;
@@ -95,7 +93,6 @@ impl Batch {
         structures.collect()
     }
 
-    /// Returns the values of a column that must have one in each row.
     fn required<T>(&self, name: &str, values: Vec<Option<T>>) -> Result<Vec<T>, TableError> {
         if self.rows.column_by_name(name).is_none() {
             return Err(TableError::missing_column(&self.path, name));

@@ -23,7 +23,6 @@ pub fn entry(column: &str) -> Option<(&'static str, &'static str)> {
     Some((unit, meaning))
 }
 
-/// The meaning of a column, for messages.
 pub fn meaning(column: &str) -> String {
     match entry(column) {
         Some(("1", meaning)) => meaning.to_string(),

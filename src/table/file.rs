@@ -99,7 +99,6 @@ struct TableFile {
 pub struct RowGroup {
     file: usize,
     group: usize,
-    /// Rows within the row group.
     pub rows: Range<usize>,
     /// First row, counted in the file.
     pub first_row: usize,
@@ -133,7 +132,6 @@ impl ParquetTable {
         }
     }
 
-    /// Keeps the rows of a partition.
     pub fn part(self, partition: Option<Partition>) -> ParquetTable {
         let Some(Partition { index, of }) = partition else { return self };
         let at = |index: usize| (self.rows() as u128 * index as u128 / of as u128) as usize;
@@ -145,7 +143,6 @@ impl ParquetTable {
         ParquetTable { rows: 0..most.min(self.rows()), ..self }
     }
 
-    /// Checks that each file has these columns.
     pub fn expect<'a>(&self, columns: impl IntoIterator<Item = &'a str> + Clone) -> Result<(), TableError> {
         for TableFile { path, metadata, .. } in &self.files {
             let mut columns = columns.clone().into_iter();
@@ -338,7 +335,6 @@ fn unlike_partitions(files: &[TableFile]) -> Option<String> {
     Some(format!("partition {missing} is missing; make it with --partition {missing}"))
 }
 
-/// Checks that the `wanted` columns of a row group are not too large.
 fn expect_small(path: &Path, group: &RowGroupMetaData, wanted: &ProjectionMask) -> Result<(), TableError> {
     let columns = group.columns().iter().enumerate().filter(|(leaf, _)| wanted.leaf_included(*leaf));
     let bytes: i64 = columns.map(|(_, column)| column.uncompressed_size().max(0)).sum();

@@ -1,18 +1,4 @@
 //! Parquet tables with unit and meaning of each column, and provenance in the footer.
-//!
-//! ```text
-//! dictionary  name, unit and meaning of every column
-//! rows        structs as rows of a table (serde)
-//! file        a table on disk: a file, or a folder of files
-//! columns     columns of a batch by name, from any program
-//! checksums   checksums of columns
-//! writer      atomic writing
-//! provenance  stage, arguments and inputs of a file, and their key
-//! keys        the keys of files, which show whether a file is up to date
-//! motions     motions, one per row
-//! responses   responses, and intensities that overturn, one row for each motion and structure
-//! frame       tables as polars frames: groups, joins, and text, CSV and JSON
-//! ```
 
 mod checksums;
 pub mod columns;
@@ -61,10 +47,6 @@ impl TableError {
     pub fn value(path: &Path, row: usize, column: &str, problem: impl ToString) -> TableError {
         let problem = problem.to_string();
         TableError::table(path, format!("row {}, column '{column}': {problem}", row + 1))
-    }
-
-    pub fn not_ours(path: &Path) -> TableError {
-        TableError::table(path, "is there already, not known as rockfrag's; --force replaces it")
     }
 
     /// Any other problem with a table.

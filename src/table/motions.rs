@@ -19,7 +19,6 @@ use super::columns::Batch;
 use super::file::{ParquetTable, Partition, RowGroup};
 use super::rows::{self, side_by_side};
 
-/// Column of the samples.
 pub const ACCELERATION: &str = "acceleration_m_s2";
 /// Row groups of more motions are read in parts.
 const LARGEST_PART: usize = 128;
@@ -54,7 +53,6 @@ impl MotionRow {
         })
     }
 
-    /// A problem with its samples.
     pub fn value_error(&self, problem: &str) -> TableError {
         let problem = format!("motion '{}': {problem}", self.motion_id);
         TableError::value(&self.path, self.row, ACCELERATION, problem)
@@ -70,7 +68,6 @@ pub struct Sampled {
 /// Some motions at a time of a part of a motions table, read when it is called.
 pub type Part<'a> = Box<dyn FnOnce() -> Result<Vec<Sampled>, TableError> + Send + 'a>;
 
-/// Opens a motions table, or a partition of it.
 pub fn open(path: &Path, partition: Option<Partition>) -> Result<ParquetTable, TableError> {
     let table = ParquetTable::open_partition(path, partition)?;
     table.expect(["motion_id", "dt_s", ACCELERATION])?;
@@ -80,7 +77,6 @@ pub fn open(path: &Path, partition: Option<Partition>) -> Result<ParquetTable, T
     }
 }
 
-/// Returns whether a column is one of [`MotionRow`].
 pub fn is_motion_column(column: &str) -> bool {
     rows::schema::<MotionRow>().index_of(column).is_ok()
 }

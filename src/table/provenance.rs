@@ -9,7 +9,6 @@ use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Key of the JSON among the key-value metadata.
 const KEY: &str = "rockfrag";
 /// Files of an input that are named.
 const MOST_NAMED: usize = 4;
@@ -23,9 +22,7 @@ const PROGRAM: &str = env!("ROCKFRAG_PROGRAM");
 #[serde(default)]
 pub struct Provenance {
     pub stage: String,
-    /// Version of rockfrag.
     pub version: String,
-    /// Hash of its sources, data and dependencies.
     pub program: String,
     /// All options except files, defaults included, by flag.
     pub arguments: BTreeMap<String, Value>,
@@ -35,7 +32,6 @@ pub struct Provenance {
     pub output: usize,
     /// The options, and names of files, of all stages before, by stage and flag.
     pub before: BTreeMap<String, BTreeMap<String, String>>,
-    /// Text printed by the stage.
     pub summary: String,
     pub warnings: Warnings,
 }
@@ -52,7 +48,6 @@ pub fn own_entry<'a>(metadata: &'a ParquetMetaData, key: &str) -> Option<&'a str
 pub struct InputFile {
     /// Its name, below the innermost folder that has all files of its flag.
     pub name: String,
-    /// The key of its content.
     pub key: String,
     #[serde(skip)]
     pub path: PathBuf,
@@ -120,7 +115,6 @@ impl Provenance {
         self.partition().map_or_else(|| self.key(), |part| format!("{} {part}", self.whole()))
     }
 
-    /// Returns the key of what was read under a flag.
     pub fn input(&self, flag: &str) -> Option<String> {
         self.inputs.get(flag).map(|files| joined(files))
     }

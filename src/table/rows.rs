@@ -101,7 +101,6 @@ pub fn read<R: Row>(path: &Path) -> Result<Vec<R>, TableError> {
     Ok(batches.into_iter().flatten().collect())
 }
 
-/// Reads the rows of a table some at a time.
 pub fn stream<'a, R: Row>(
     table: &'a ParquetTable,
 ) -> Result<impl Iterator<Item = Result<Vec<R>, TableError>> + Send + use<'a, R>, TableError> {

@@ -45,7 +45,6 @@ impl TableWriter {
         &self.written.path
     }
 
-    /// Its temporary name.
     pub fn partial(&self) -> &Path {
         self.written.partial.path()
     }
@@ -54,7 +53,6 @@ impl TableWriter {
         self.writer.write(rows).map_err(|cause| cannot_write(self.path(), cause))
     }
 
-    /// Ends the table.
     pub fn finish(mut self, made: &Provenance) -> Result<PendingFile, TableError> {
         let checksums = self.checksums().map_err(|cause| cannot_write(self.path(), cause))?;
         self.writer.append_key_value_metadata(checksums);

@@ -11,8 +11,8 @@ use rockfrag::figures::*;
 use rockfrag::table::motions::MotionRow;
 use rockfrag::table::responses::TraceRow;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandFit, Event, LimitStates, Measure, MotionKind, Peak, fit_curve, fit_planes,
-    fit_power_law,
+    Case, Cases, DemandFit, Event, LimitStates, Measure, MotionKind, Peak, Predictors, fit_curve, fit_law,
+    fit_planes,
 };
 use rockfrag_core::hazard::{FragilityPoint, Hazard, HazardCurve, Site};
 use rockfrag_core::motion::IntensityMeasures;
@@ -50,8 +50,8 @@ pub fn tables(count: usize) -> (Vec<Cases>, Fits) {
         let all = cases(p_rad_s, 100);
         let with = |fit: DemandFit, b: &[f64]| DemandFit { coefficients: b.to_vec(), ..fit };
         tables.demand.extend(fit_planes(&all, 1.3).into_iter().zip(PLANES).map(|(fit, b)| with(fit, &b)));
-        let laws =
-            [Measure::Im3, Measure::Im4].map(|measure| with(fit_power_law(&all, measure), &[-2.0, 1.5]));
+        let laws = [Measure::Im3, Measure::Im4]
+            .map(|measure| with(fit_law(&all, Predictors::one(measure)), &[-2.0, 1.5]));
         tables.demand.extend(laws);
         for (im_x, im_y) in
             [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im4, None), (Measure::Im5, None)]

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use nalgebra::DVector;
 
-use crate::statistics::clusters::clustered_mean;
+use crate::statistics::clusters::clustered_error_of_mean;
 use crate::statistics::distributions::{chi_squared_quantile, t_quantile};
 use crate::statistics::newton::{Objective, maximise};
 use crate::statistics::normal::ln_cdf_and_slope;
@@ -44,7 +44,7 @@ pub fn fit_capacities(capacities: &[KnownCapacity], clusters: &[u32]) -> Result<
     let alone: Vec<u32> = (0..ln_x.len() as u32).collect();
     let half_width = |clusters: &[u32]| {
         let distinct = clusters.iter().collect::<BTreeSet<&u32>>().len();
-        clustered_mean(&ln_x, clusters).1 * t_quantile(0.975, distinct as f64 - 1.0)
+        clustered_error_of_mean(&ln_x, clusters) * t_quantile(0.975, distinct as f64 - 1.0)
     };
     let wider = (half_width(&clusters) / half_width(&alone)).max(1.0);
     // The responses to one earthquake say nothing about others.

@@ -1,3 +1,5 @@
+//! The responses of one structure to one suite of motions.
+
 use std::collections::BTreeMap;
 
 use super::measure_names::{Measure, has_logarithm};

@@ -32,17 +32,9 @@ pub fn ln_median_demand(coefficients: &[f64], ims: &[f64]) -> f64 {
 pub const PLANE: [Measure; 2] = [Measure::Im4, Measure::Im3];
 const EVERYWHERE: Range<f64> = 0.0..f64::INFINITY;
 
-/// Fits Dm = a IM^b over all cases (Eqs. 15 and 16).
-pub fn fit_power_law(cases: &Cases, measure: Measure) -> DemandFit {
-    fit_law(cases, Predictors::one(measure))
-}
-
-/// Fits one plane Dm = a IM4^b1 IM3^b2 over all cases (Eqs. 17 and 18).
-pub fn fit_plane(cases: &Cases) -> DemandFit {
-    fit_law(cases, Predictors::two(PLANE))
-}
-
-fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
+/// Fits Dm = a IM^b over all cases (Eqs. 15 and 16) or, of two measures, Dm = a IMx^b1 IMy^b2 (Eqs. 17 and
+/// 18).
+pub fn fit_law(cases: &Cases, predictors: Predictors) -> DemandFit {
     let model = if predictors.im_y.is_some() { DemandModel::Plane } else { DemandModel::Univariate };
     let measures: Vec<Measure> = predictors.measures().cloned().collect();
     DemandFit::new(cases, model, &measures, EVERYWHERE)

@@ -1,19 +1,5 @@
 //! Fragility: the probability of exceeding a rotation limit, and of overturning, given the intensity of the
 //! motion (sections 2.3 and 3).
-//!
-//! ```text
-//! cases        the responses of one structure to one suite of motions; measure_names: the measures of Eq. 13
-//! demand       P_ex: regressions of the demand in safe rocking (Eqs. 14 to 18)
-//! overturning  P_ro: curves of single and hybrid measures (Eqs. 19 to 24); parameter: their parameters
-//! tree         the event tree that joins them (Eq. 12)
-//! surface      P_ro and P_ex of any structure; calibration: the surface, calibrated by responses
-//! magnitude    the magnitude that an answer assumes
-//! model_point  the estimate, a limit, or the value with one error of the model
-//! model        the model that predicts: the calibrated surface, or the paper's fits
-//! on_floor     the motions of a floor; ready: an object and its models, ready for many motions
-//! joint_peaks  PGV / PGA of motions of one PGA or PGV; given_peak: probabilities given that peak alone
-//! capacity     the lognormal distribution of the capacities of an incremental dynamic analysis
-//! ```
 
 mod calibration;
 mod capacity;
@@ -37,7 +23,7 @@ pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::MOST_CASES;
 pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
-pub use demand::{fit_demand, fit_plane, fit_planes, fit_power_law, scan_transition, transition};
+pub use demand::{fit_demand, fit_law, fit_planes, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};
 pub use given_peak::GivenPeak;
 pub use joint_peaks::{JointPeaks, Peak, RatioGiven};

@@ -1,3 +1,5 @@
+//! The model that predicts: the calibrated surface, or the paper's fits.
+
 use std::sync::Arc;
 
 use super::calibration::Calibration;

@@ -3,8 +3,8 @@
 //!
 //! Rocking is not monotone in the intensity: a structure that overturns under a motion may survive a stronger
 //! one of the same shape, and a finer scan finds more changes of outcome, since the boundaries are fractal.
-//! There is no single capacity. At its resolution, a scan returns the least overturning intensity, the
-//! overturning share of each band above it, and the windows in which no simulated intensity overturns.
+//! There is no single capacity. At its resolution, a scan finds the least overturning intensity, and the
+//! windows above it in which no simulated intensity overturns.
 
 use serde::{Deserialize, Serialize};
 
@@ -121,42 +121,6 @@ impl Scan {
     fn is_window(&self, run: &[ScanResponse]) -> bool {
         !run[0].overturns() && width(run) * ROUNDING >= self.finest_ratio()
     }
-
-    pub fn capacity(&self, responses: &[ScanResponse]) -> Capacity {
-        let mut runs = responses.chunk_by(|a, b| a.overturns() == b.overturns()).peekable();
-        let safe = runs.next_if(|run| !run[0].overturns());
-        let safe_below = safe.and_then(|run| run.last()).map(|last| last.intensity);
-        let overturning = runs.next().map(|run| run[0].intensity);
-        let mut windows = Vec::new();
-        while let Some(run) = runs.next() {
-            if self.is_window(run) {
-                let high = runs.peek().map(|_| run[run.len() - 1].intensity);
-                windows.push(SafeWindow { low: run[0].intensity, high });
-            }
-        }
-        let status = match (safe_below, overturning) {
-            (_, None) => CapacityStatus::Safe,
-            (None, Some(_)) => CapacityStatus::Below,
-            (Some(_), Some(_)) => CapacityStatus::Overturns,
-        };
-        let safe_up_to = responses.iter().rfind(|at| !at.overturns()).map(|at| at.intensity);
-        Capacity { status, safe_below, overturning, windows, safe_up_to }
-    }
-
-    /// Computes the overturning share of each band between levels, in logarithms of the intensity. A step
-    /// with one overturning end counts half.
-    pub fn overturning_shares(&self, responses: &[ScanResponse]) -> Vec<f64> {
-        let bands = self.levels.windows(2).map(|band| {
-            let [from, to] = [0, 1].map(|end| responses.partition_point(|at| at.intensity < band[end]));
-            let parts = responses[from..=to].windows(2).map(|step| {
-                let ends = step.iter().filter(|end| end.overturns()).count();
-                0.5 * ends as f64 * width(step).ln()
-            });
-            let sum: f64 = parts.sum();
-            (sum / (band[1] / band[0]).ln()).min(1.0)
-        });
-        bands.collect()
-    }
 }
 
 fn width(run: &[ScanResponse]) -> f64 {
@@ -203,16 +167,22 @@ pub struct Capacity {
     pub safe_below: Option<f64>,
     #[serde(rename = "overturning_intensity")]
     pub overturning: Option<f64>,
-    #[serde(skip)]
-    pub windows: Vec<SafeWindow>,
     /// Largest safe intensity.
     pub safe_up_to: Option<f64>,
 }
 
-/// A safe range above an overturning intensity, at least as wide as the resolution of the scan.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SafeWindow {
-    pub low: f64,
-    /// Largest safe intensity; none where the scan ends within the window.
-    pub high: Option<f64>,
+impl Capacity {
+    /// Of responses at ascending intensity.
+    pub fn of(responses: &[ScanResponse]) -> Capacity {
+        let first = responses.iter().position(ScanResponse::overturns);
+        let safe_below = responses[..first.unwrap_or(responses.len())].last().map(|last| last.intensity);
+        let overturning = first.map(|first| responses[first].intensity);
+        let status = match (safe_below, overturning) {
+            (_, None) => CapacityStatus::Safe,
+            (None, Some(_)) => CapacityStatus::Below,
+            (Some(_), Some(_)) => CapacityStatus::Overturns,
+        };
+        let safe_up_to = responses.iter().rfind(|at| !at.overturns()).map(|at| at.intensity);
+        Capacity { status, safe_below, overturning, safe_up_to }
+    }
 }

@@ -34,7 +34,7 @@ mod vector;
 
 pub use batch::{simulate, simulate_all};
 pub use body::Body;
-pub use incremental::{Capacity, CapacityStatus, SafeWindow, Scan, ScanPoint, ScanResponse};
+pub use incremental::{Capacity, CapacityStatus, Scan, ScanPoint, ScanResponse};
 pub use lanes::Problem;
 pub use record::{Ground, Record, RecordError};
 pub use reference::{SolverEvent, TracePoint, trace};

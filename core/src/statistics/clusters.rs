@@ -59,53 +59,36 @@ pub fn widened(model: &DMatrix<f64>, clustered: DMatrix<f64>) -> Option<DMatrix<
     Some(&errors * larger * errors.transpose())
 }
 
-/// Computes the mean and its standard error, sqrt(C/(C - 1) sum (S_c - n_c mean)^2) / n for C clusters, where
+/// Computes the standard error of the mean, sqrt(C/(C - 1) sum (S_c - n_c mean)^2) / n for C clusters, where
 /// S_c is the sum of the n_c values of a cluster.
-pub fn clustered_mean(values: &[f64], clusters: &[u32]) -> (f64, f64) {
+pub fn clustered_error_of_mean(values: &[f64], clusters: &[u32]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let sums = cluster_sums(clusters, 1, |case, sum| sum[0] += values[case] - mean);
     let (g, squares) = (sums.len() as f64, sums.iter().map(|sum| sum[0] * sum[0]).sum::<f64>());
-    (mean, (g / (g - 1.0) * squares).sqrt() / n)
+    (g / (g - 1.0) * squares).sqrt() / n
 }
 
-/// Assignment of cases to folds, by cluster, since motions of one earthquake, or of one magnitude and
-/// distance, are alike (Roberts et al. 2017, Ecography 40, 913-929).
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Folds {
-    fold: Vec<usize>,
-    pub count: usize,
-}
-
-impl Folds {
-    /// Deals clusters in turn, so that neighbours are apart, to at most `most` folds. None for one cluster.
-    pub fn new(clusters: &[u32], most: usize) -> Option<Folds> {
-        let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
-        let count = distinct.len().min(most);
-        if count < 2 {
-            return None;
-        }
-        let places = clusters.iter().map(|cluster| distinct.partition_point(|other| other < cluster));
-        Some(Folds { fold: places.map(|place| place % count).collect(), count })
-    }
-
-    /// Returns the cases to fit, and those left out, for a fold.
-    pub fn split(&self, fold: usize) -> (Vec<usize>, Vec<usize>) {
-        (0..self.fold.len()).partition(|&case| self.fold[case] != fold)
-    }
-}
-
-/// Predicts the z of each case by a fit without its fold. `fit` takes the columns and `y` of some cases, and
-/// gives what else predicts: z comes with it. None for one cluster, or if a fold has no fit.
+/// Predicts the z of each case by a fit without its fold. Clusters are dealt in turn, so that neighbours are
+/// apart, to at most ten folds, since motions of one earthquake, or of one magnitude and distance, are alike
+/// (Roberts et al. 2017, Ecography 40, 913-929). `fit` takes the columns and `y` of some cases, and gives
+/// what else predicts: z comes with it. None for one cluster, or if a fold has no fit.
 pub fn held_out<Y: Copy + Sync, With: Copy + Send>(
     x: &[&[f64]],
     y: &[Y],
     clusters: &[u32],
     fit: impl Fn(&[Vec<f64>], &[Y]) -> Option<(Fit, With)> + Sync,
 ) -> Option<Vec<(f64, With)>> {
-    let folds = Folds::new(clusters, FOLDS)?;
-    let predicted = (0..folds.count).into_par_iter().map(|fold| {
-        let (kept, left_out) = folds.split(fold);
+    let distinct: Vec<u32> = clusters.iter().copied().collect::<BTreeSet<u32>>().into_iter().collect();
+    let count = distinct.len().min(FOLDS);
+    if count < 2 {
+        return None;
+    }
+    let places = clusters.iter().map(|cluster| distinct.partition_point(|other| other < cluster));
+    let folds: Vec<usize> = places.map(|place| place % count).collect();
+    let predicted = (0..count).into_par_iter().map(|fold| {
+        let (left_out, kept): (Vec<usize>, Vec<usize>) =
+            (0..folds.len()).partition(|&case| folds[case] == fold);
         let columns: Vec<Vec<f64>> = x.iter().map(|x| kept.iter().map(|&case| x[case]).collect()).collect();
         let (Fit { coefficients: b, .. }, with) =
             fit(&columns, &kept.iter().map(|&case| y[case]).collect::<Vec<Y>>())?;

@@ -1,3 +1,5 @@
+//! The design matrix of a regression.
+
 use nalgebra::{DMatrix, DVector};
 
 use super::fit::FitStatus;

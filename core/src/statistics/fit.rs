@@ -1,3 +1,5 @@
+//! Coefficients, covariance and status of a regression.
+
 use nalgebra::{DMatrix, DVector};
 
 use super::clusters::{MIN_CLUSTERS, widened};

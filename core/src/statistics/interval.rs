@@ -1,3 +1,5 @@
+//! A value with limits.
+
 use serde::{Deserialize, Serialize};
 
 /// A value with its confidence limits. In `Interval<Option<f64>>` all three are none where nothing is known,

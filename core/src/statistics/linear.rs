@@ -1,3 +1,5 @@
+//! Ordinary least squares (Eqs. 16 and 17).
+
 use nalgebra::DVector;
 
 use super::clusters::sandwich;

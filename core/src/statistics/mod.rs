@@ -1,20 +1,5 @@
 //! Regressions and distributions.
 //!
-//! ```text
-//! linear         ordinary least squares (Eqs. 16 and 17)
-//! binary         probit regression by maximum likelihood (Eqs. 19 to 22)
-//! interval       a value with limits
-//! fit            coefficients, covariance and status of a regression
-//! design         design matrix
-//! newton         maximum of a log-likelihood
-//! clusters       standard errors and cross-validation for dependent cases
-//! range          the values between two bounds
-//! scores         AUC, Brier and log score of probabilities
-//! normal         standard normal distribution
-//! distributions  t, F and chi squared
-//! numerics       quadrature, bisection and steps of equal ratio
-//! ```
-//!
 //! A fit takes columns of length n and has k coefficients, the intercept first; a covariance is k × k, row by
 //! row.
 
@@ -32,7 +17,7 @@ mod range;
 pub mod scores;
 
 pub use binary::{FEW_EVENTS, ProbitFit, clustered_probit, log_likelihood, probit};
-pub use clusters::{Folds, held_out};
+pub use clusters::held_out;
 pub use fit::{Fit, FitStatus, delta_variance, independent_errors, predict};
 pub use interval::Interval;
 pub use linear::{LinearFit, clustered_least_squares, least_squares};

@@ -1,3 +1,5 @@
+//! The values between two bounds.
+
 use serde::{Deserialize, Serialize};
 
 #[derive(Debug, Clone, Copy, PartialEq)]

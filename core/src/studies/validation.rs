@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::fragility::Event;
-use crate::statistics::clusters::clustered_mean;
+use crate::statistics::clusters::clustered_error_of_mean;
 use crate::statistics::normal::Z_95;
 use crate::statistics::scores::{auc, brier_score, log_score};
 use crate::statistics::{Interval, clustered_probit, normal};
@@ -88,7 +88,7 @@ impl Forecasts<'_> {
             n: n as i64,
             observed: observed as i64,
             expected: probabilities.iter().sum(),
-            expected_error: n as f64 * clustered_mean(&excess, clusters).1,
+            expected_error: n as f64 * clustered_error_of_mean(&excess, clusters),
             log_score: Some(log_score(probabilities, happened)).filter(|score| score.is_finite()),
             brier: brier_score(probabilities, happened),
             auc: (0 < observed && observed < n).then(|| auc(probabilities, happened)),

@@ -3,7 +3,9 @@
 
 use rand_distr::{Distribution, StandardNormal};
 use rayon::prelude::*;
-use rockfrag_core::fragility::{Cases, Event, Measure, Parameter, ParameterRow, fit_curve, fit_plane};
+use rockfrag_core::fragility::{
+    Cases, Event, Measure, PLANE, Parameter, ParameterRow, Predictors, fit_curve, fit_law,
+};
 use rockfrag_core::rocking::Outcome;
 
 use crate::common::{cases, random};
@@ -33,7 +35,8 @@ fn coverage(cells: u32, shared: bool, truths: &[(Parameter, f64)]) -> Vec<f64> {
     let held = |seed: u64| -> Vec<bool> {
         let [demand, overturning] = simulated(seed, cells, shared);
         let curve = fit_curve(&overturning, Event::Overturning, Measure::Im4, Some(Measure::Im3Inverse));
-        let (plane, curve) = (fit_plane(&demand).parameters(0.95), curve.parameters(0.95));
+        let (plane, curve) =
+            (fit_law(&demand, Predictors::two(PLANE)).parameters(0.95), curve.parameters(0.95));
         let holds = |&(parameter, truth): &(Parameter, f64)| {
             let rows: &[ParameterRow] = match parameter {
                 Parameter::LnA | Parameter::B1 | Parameter::B2 | Parameter::Zeta => &plane,

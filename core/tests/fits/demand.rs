@@ -3,7 +3,7 @@
 
 use rand::RngExt;
 use rockfrag_core::fragility::{
-    Cases, DemandModel, Measure, fit_demand, fit_plane, fit_planes, fit_power_law, ln_median_demand,
+    Cases, DemandModel, Measure, PLANE, Predictors, fit_demand, fit_law, fit_planes, ln_median_demand,
     scan_transition, transition,
 };
 use rockfrag_core::motion::IntensityMeasures;
@@ -36,7 +36,10 @@ fn regressions_equal_statsmodels() {
     // One cluster leaves errors and limits to the model, nine widen them.
     for (clusters, is_clustered) in [(20, true), (9, false), (1, false)] {
         cases.all.iter_mut().for_each(|case| case.cluster %= clusters);
-        for (name, fit) in [("x", fit_power_law(&cases, Measure::Im4)), ("xy", fit_plane(&cases))] {
+        for (name, fit) in [
+            ("x", fit_law(&cases, Predictors::one(Measure::Im4))),
+            ("xy", fit_law(&cases, Predictors::two(PLANE))),
+        ] {
             let (k, of) = (fit.coefficients.len(), |part: String| expected[&format!("ols_{name}_{part}")]);
             assert_eq!((fit.n, fit.n_clusters, fit.is_clustered), (400, i64::from(clusters), is_clustered));
             let rows = fit.parameters(0.95);
@@ -113,15 +116,19 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
         }))
     };
     for cases in [line(3, |im4| 1.0 / im4), line(90, |im4| im4)] {
-        let fit = fit_plane(&cases);
+        let fit = fit_law(&cases, Predictors::two(PLANE));
         assert_eq!((fit.status, fit.coefficients.len(), fit.beta), (FitStatus::Degenerate, 0, None));
         assert!(fit.parameters(0.95).is_empty());
         assert_eq!(fit.p_exceeding(&cases.all[0].measures, 0.1, 0.95), None);
     }
     let demand = |k: u32| (0.3 * f64::from(k % 3) - 0.1 * f64::from(k)).exp();
     let falling = cases((0..90).map(|k| (Outcome::SafeRocking(demand(k)), 1.0 + f64::from(k), 1.0, k)));
-    assert_eq!(fit_power_law(&falling, Measure::Im4).status, FitStatus::WrongSign);
-    assert_eq!(fit_power_law(&falling, Measure::Im1).status, FitStatus::Degenerate, "no case has it");
+    assert_eq!(fit_law(&falling, Predictors::one(Measure::Im4)).status, FitStatus::WrongSign);
+    assert_eq!(
+        fit_law(&falling, Predictors::one(Measure::Im1)).status,
+        FitStatus::Degenerate,
+        "no case has it"
+    );
     let few = line(30, |im4| im4);
     assert!(scan_transition(&few).is_empty());
     let fits = fit_demand(&few, None, &[0.1], &[], false);
@@ -138,7 +145,7 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
         (Outcome::SafeRocking(edp), im4, 1.0, k % 9)
     };
     let rows: Vec<_> = (0..12).map(&mut row).collect();
-    let fit = fit_power_law(&cases(rows.clone()), Measure::Im4);
+    let fit = fit_law(&cases(rows.clone()), Predictors::one(Measure::Im4));
     assert!(!fit.is_clustered && fit.degrees == Some(10.0));
     let (at, limit, beta) = (1.5f64, 4.0f64, fit.beta.unwrap());
     let ln: Vec<f64> = rows.iter().map(|row| row.1.ln()).collect();
@@ -152,5 +159,9 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     close(p.value, normal::cdf(z), 1e-13);
     close(p.low, normal::cdf(z - half_width), 1e-9);
     close(p.high, normal::cdf(z + half_width), 1e-9);
-    assert_eq!(fit_plane(&cases(rows)).p_exceeding(&measures, limit, 0.95), None, "IM3 is missing");
+    assert_eq!(
+        fit_law(&cases(rows), Predictors::two(PLANE)).p_exceeding(&measures, limit, 0.95),
+        None,
+        "IM3 is missing"
+    );
 }

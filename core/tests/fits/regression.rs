@@ -1,15 +1,17 @@
 //! Least squares, probit regression and distributions against statsmodels, scipy and mpmath
 //! (scripts/reference/fits.py).
 
+use std::collections::BTreeSet;
+
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_distr::{Distribution, StandardNormal};
-use rockfrag_core::statistics::clusters::clustered_mean;
+use rockfrag_core::statistics::clusters::clustered_error_of_mean;
 use rockfrag_core::statistics::distributions::{chi_squared_quantile, f_upper_tail, t_quantile};
 use rockfrag_core::statistics::normal::{cdf, ln_cdf, ln_cdf_and_slope, quantile};
 use rockfrag_core::statistics::scores::{auc, brier_score, largest_difference, log_score};
 use rockfrag_core::statistics::{
-    FitStatus, Folds, clustered_least_squares, clustered_probit, least_squares, probit,
+    FitStatus, clustered_least_squares, clustered_probit, held_out, least_squares, probit,
 };
 
 use crate::common::{Row, answers, close, data, random, read};
@@ -139,31 +141,34 @@ fn scores_have_their_textbook_values() {
     assert_eq!(log_score(&[1.0], &[false]), f64::NEG_INFINITY);
     close(log_score(&[0.25; 2], &[true, false]), 0.5 * (0.25f64.ln() + 0.75f64.ln()), 1e-15);
     // Each case a cluster of its own: the standard error of a mean.
-    let (mean, error) = clustered_mean(&[1.0, 2.0, 3.0, 6.0], &[0, 1, 2, 3]);
-    close(mean, 3.0, 1e-15);
+    let error = clustered_error_of_mean(&[1.0, 2.0, 3.0, 6.0], &[0, 1, 2, 3]);
     close(error, (14.0 / 3.0 / 4.0f64).sqrt(), 1e-15);
     // Two clusters whose sums about the mean are -3 and 3.
-    close(clustered_mean(&[1.0, 2.0, 3.0, 6.0], &[7, 7, 2, 2]).1, (2.0 * 18.0f64).sqrt() / 4.0, 1e-15);
+    close(clustered_error_of_mean(&[1.0, 2.0, 3.0, 6.0], &[7, 7, 2, 2]), (2.0 * 18.0f64).sqrt() / 4.0, 1e-15);
 }
 
 #[test]
 fn whole_clusters_are_left_out_once() {
-    for (clusters, most) in [(35, 10), (35, 100), (3, 10)] {
-        let of: Vec<u32> = (0..clusters * 4).map(|case| 7 * (case % clusters)).collect();
-        let folds = Folds::new(&of, most).unwrap();
-        assert_eq!(folds.count, most.min(clusters as usize));
-        let mut left_out_in_all = Vec::new();
-        for fold in 0..folds.count {
-            let (kept, left_out) = folds.split(fold);
-            let is_apart = |out: &usize| kept.iter().all(|kept| of[*kept] != of[*out]);
-            assert!(left_out.iter().all(is_apart), "one cluster, one fold");
-            assert!(left_out.len().abs_diff(of.len() / folds.count) <= 4);
-            left_out_in_all.extend(left_out);
+    // z = x, and the clusters that a fit has seen, a bit each.
+    let fit = |x: &[Vec<f64>], _: &[()]| {
+        let seen = x[0].iter().fold(0_u64, |seen, &cluster| seen | 1 << cluster as u32);
+        Some((least_squares(&[[0.0, 1.0, 2.0]], &[0.0, 1.0, 2.0]).ok()?.fit, seen))
+    };
+    for clusters in [35_u32, 3] {
+        let of: Vec<u32> = (0..clusters * 4).map(|case| case % clusters).collect();
+        let x: Vec<f64> = of.iter().copied().map(f64::from).collect();
+        let predicted = held_out(&[&x], &vec![(); x.len()], &of, fit).unwrap();
+        for ((z, seen), (x, cluster)) in predicted.iter().zip(x.iter().zip(&of)) {
+            assert!((z - x).abs() < 1e-9 && seen >> cluster & 1 == 0, "one cluster, one fold");
         }
-        left_out_in_all.sort_unstable();
-        assert!(left_out_in_all.into_iter().eq(0..of.len()));
+        let folds: BTreeSet<u64> = predicted.into_iter().map(|(_, seen)| seen).collect();
+        assert_eq!(folds.len(), clusters.min(10) as usize);
+        let left_out = folds.iter().map(|seen| clusters - seen.count_ones());
+        assert!(left_out.clone().all(|left_out| left_out.abs_diff(clusters.div_ceil(10)) <= 1));
+        assert_eq!(left_out.sum::<u32>(), clusters);
     }
-    assert_eq!((Folds::new(&[5, 5, 5], 10), Folds::new(&[], 10)), (None, None));
+    assert!(held_out(&[&[1.0; 3]], &[(); 3], &[5; 3], fit).is_none());
+    assert!(held_out(&[&[]], &[], &[], fit).is_none());
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! scipy (scripts/reference/fits.py).
 
 use rockfrag_core::fragility::{Cases, Event, Measure, Predictors, fit_curves, fit_demand};
-use rockfrag_core::statistics::{Folds, normal, predict, probit};
+use rockfrag_core::statistics::{held_out, normal, probit};
 use rockfrag_core::studies::{Forecasts, observed_share};
 
 use crate::common::{answers, close, data};
@@ -17,16 +17,9 @@ fn forecasts_of_cells_left_out_score_as_statsmodels_has_it() {
     let (data, expected) = (data(), answers("score_answers.csv"));
     for (name, key) in [("x", "p_ro_im4_single"), ("xy", "p_ro_im4:im3_single")] {
         let x = data.predictors(name);
-        let folds = Folds::new(&data.cells, 10).unwrap();
-        let mut p = vec![0.0; data.x.len()];
-        for fold in 0..folds.count {
-            let (kept, left_out) = folds.split(fold);
-            let columns: Vec<Vec<f64>> = x.iter().map(|x| kept.iter().map(|&k| x[k]).collect()).collect();
-            let events: Vec<bool> = kept.iter().map(|&k| data.event[k]).collect();
-            let fit = probit(&columns.iter().map(Vec::as_slice).collect::<Vec<_>>(), &events).unwrap().fit;
-            let z = predict(fit.coefficients.as_slice(), &x);
-            left_out.into_iter().for_each(|k| p[k] = normal::cdf(z[k]));
-        }
+        let fit = |x: &[Vec<f64>], events: &[bool]| Some((probit(x, events).ok()?.fit, ()));
+        let z = held_out(&x, &data.event, &data.cells, fit).unwrap();
+        let p: Vec<f64> = z.into_iter().map(|(z, ())| normal::cdf(z)).collect();
         let forecasts = forecasts(&p, &data.event, &data.cells);
         let validation = forecasts.validate().unwrap();
         let of = |figure: &str| expected[&format!("{key}_{figure}")];

@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use rockfrag_core::rocking::{
-    CapacityStatus, Outcome, Response, SafeWindow, Scan, ScanPoint, ScanResponse, Structure,
+    Capacity, CapacityStatus, Outcome, Response, Scan, ScanPoint, ScanResponse, Structure,
 };
 
 use crate::closed_forms::{P, sine};
@@ -23,16 +23,25 @@ fn a_sine_pulse_overturns_after_an_impact_then_not_and_then_without_one() {
     let edges: Vec<Row> = rows("rocking/one_sine.csv");
     for edges in edges[..9].chunks(3) {
         let w_p: f64 = edges[0].get("w_p");
-        let found = scan.capacity(&scan_by(&scan, |point| {
+        let responses = scan_by(&scan, |point| {
             let (samples, dt) = sine(alpha, point.intensity, w_p * P, 2.0);
             respond(&block, &samples, dt)
-        }));
+        });
+        let found = Capacity::of(&responses);
         assert_eq!(found.status, CapacityStatus::Overturns);
-        let [SafeWindow { low, high: Some(high) }] = found.windows[..] else { panic!("{found:?}") };
+        let [(low, high)] = windows(&responses)[..] else { panic!("{found:?}") };
+        assert_eq!(found.safe_up_to, Some(high));
         for (found, edge) in [found.overturning.unwrap(), low, high].into_iter().zip(edges) {
             close(found, edge.get("r"), 1.1e-3);
         }
     }
+}
+
+/// Least and largest intensity of each safe range above the first overturning one.
+fn windows(responses: &[ScanResponse]) -> Vec<(f64, f64)> {
+    let runs = responses.chunk_by(|a, b| a.overturns() == b.overturns());
+    let safe = runs.skip(1).filter(|run| !run[0].overturns());
+    safe.map(|run| (run[0].intensity, run[run.len() - 1].intensity)).collect()
 }
 
 /// A scan of a structure that overturns in these ranges.
@@ -51,27 +60,14 @@ fn all_windows_that_are_wide_enough_are_found() {
     close(scan.finest_ratio(), 100.0_f64.powf(1.0 / 128.0), 1e-12);
     assert_eq!((scan.levels.len(), scan.levels[0], scan.levels[8]), (9, 1.0, 100.0));
     // A narrow overturning range, a window between two modes, and a window at the end of the scan.
-    let found = scan.capacity(&scan_of(&scan, &[(2.0, 2.1), (3.0, 5.0), (5.2, 50.0)]));
+    let responses = scan_of(&scan, &[(2.0, 2.1), (3.0, 5.0), (5.2, 50.0)]);
+    let found = Capacity::of(&responses);
     close(found.overturning.unwrap(), 2.0, 1e-3);
     close(found.safe_below.unwrap(), 2.0, 1e-3);
-    let edges = [(2.1, Some(3.0)), (5.0, Some(5.2)), (50.0, None)];
-    assert_eq!(found.windows.len(), edges.len(), "{found:?}");
-    for (window, (low, high)) in found.windows.iter().zip(edges) {
-        close(window.low, low, 1e-3);
-        assert_eq!(window.high.is_some(), high.is_some());
-        close(window.high.unwrap_or(1.0), high.unwrap_or(1.0), 1e-3);
+    let (windows, edges) = (windows(&responses), [(2.1, 3.0), (5.0, 5.2), (50.0, 100.0)]);
+    assert_eq!(windows.len(), edges.len(), "{windows:?}");
+    for (window, (low, high)) in windows.into_iter().zip(edges) {
+        close(window.0, low, 1e-3);
+        close(window.1, high, 1e-3);
     }
-}
-
-#[test]
-fn shares_are_those_of_the_logarithm_of_the_intensity() {
-    let scan = Scan::new(1.0, 16.0, 4);
-    let responses = scan_of(&scan, &[(1.1, 1.3), (1.5, 1.6), (2.5, 7.0)]);
-    let shares = scan.overturning_shares(&responses);
-    let part = |low: f64, high: f64| (high / low).ln() / 2.0_f64.ln();
-    let expected = [part(1.1, 1.3) + part(1.5, 1.6), part(2.5, 4.0), part(4.0, 7.0), 0.0];
-    for (share, expected) in shares.iter().zip(expected) {
-        assert!((share - expected).abs() < 4e-3, "{shares:?}");
-    }
-    assert_eq!(shares.len(), 4);
 }

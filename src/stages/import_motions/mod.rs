@@ -146,7 +146,7 @@ impl Stage for ImportMotions {
         let work = importer.work(context, &mut summary)?;
         let bar = context.bar(work.len());
         pipelined(
-            batches(work.into_iter().map(anyhow::Ok), AT_ONCE),
+            batches(work.into_iter(), AT_ONCE),
             |work| {
                 bar.advance(1)?;
                 Ok(importer.import(&work))

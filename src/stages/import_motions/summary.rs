@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use anyhow::bail;
+use anyhow::{bail, ensure};
 use rockfrag_core::records::processing::ImportedMotion;
 use rockfrag_core::units::G_M_S2;
 
@@ -45,9 +45,7 @@ impl Summary {
         let mut files = HashMap::new();
         for ImportedMotion { source_file: path, source_blake3, .. } in &self.motions {
             let first = *files.entry(source_blake3).or_insert(path);
-            if first != path {
-                bail!("{path}: the same record as {first}; leave out one");
-            }
+            ensure!(first == path, "{path}: the same record as {first}; leave out one");
         }
         let (is_empty, left_out) = (self.motions.is_empty(), self.left_out());
         if is_empty && self.refused.is_empty() {

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashSet};
 use std::path::{Path, PathBuf};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, ensure};
 use polars_core::prelude::{Column, DataFrame};
 use rockfrag_core::fragility::{Measure, Predictors};
 use rockfrag_core::motion::Dimension;
@@ -15,7 +15,6 @@ use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::frame;
 
-/// Column of the names of motions.
 const ID: &str = "motion_id";
 /// The units at the end of the names of columns, the longer ones first.
 const UNITS: [(&str, Dimension); 4] = [
@@ -44,16 +43,13 @@ impl MotionColumns {
     /// Checks that measures which are asked for can be had.
     pub fn check(asked: &[Predictors], motions: Option<&Path>) -> anyhow::Result<()> {
         for name in names(asked) {
-            if motions.is_none() {
-                let expected = "expected im1 to im6, im3_inv, or a column of the motions with --motions";
-                return Err(UsageError::because(format!("pairs: no measure '{name}'; {expected}")));
-            }
-            if OTHER_UNITS.iter().any(|unit| name.ends_with(unit)) {
-                let expected = "expected _m_s2, _m_s, _m or _s at its end, or no unit";
-                return Err(UsageError::because(format!(
-                    "pairs: the unit of '{name}' is not SI; {expected}"
-                )));
-            }
+            let expected = "expected im1 to im6, im3_inv, or a column of the motions with --motions";
+            let problem = format!("pairs: no measure '{name}'; {expected}");
+            ensure!(motions.is_some(), UsageError::because(problem));
+            let is_other = OTHER_UNITS.iter().any(|unit| name.ends_with(unit));
+            let expected = "expected _m_s2, _m_s, _m or _s at its end, or no unit";
+            let problem = format!("pairs: the unit of '{name}' is not SI; {expected}");
+            ensure!(!is_other, UsageError::because(problem));
         }
         Ok(())
     }
@@ -83,15 +79,12 @@ impl MotionColumns {
             }
             read.motions.vstack_mut_owned(DataFrame::new(batch.rows.num_rows(), columns)?)?;
         }
-        if read.motions.height() == 0 {
-            return Err(TableError::table(path, "no motions; expected at least one").into());
-        }
+        let is_empty = read.motions.height() == 0;
+        ensure!(!is_empty, TableError::table(path, "no motions; expected at least one"));
         let mut known = HashSet::new();
-        for id in read.motions.column(ID)?.str()?.iter().flatten() {
-            if !known.insert(id) {
-                let problem = format!("motion '{id}' is there twice; expected each once");
-                return Err(TableError::table(path, problem).into());
-            }
+        if let Some(id) = read.motions.column(ID)?.str()?.iter().flatten().find(|id| !known.insert(*id)) {
+            let problem = format!("motion '{id}' is there twice; expected each once");
+            return Err(TableError::table(path, problem).into());
         }
         Ok(read)
     }

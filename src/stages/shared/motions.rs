@@ -27,7 +27,7 @@ pub fn process_in_order<'a, T: Send>(
 ) -> anyhow::Result<()> {
     let mut known = HashSet::new();
     pipelined(
-        batches(parts.map(anyhow::Ok), PARTS_A_THREAD * rayon::current_num_threads()),
+        batches(parts, PARTS_A_THREAD * rayon::current_num_threads()),
         |part| {
             let done = part()?.into_par_iter().map(|some| {
                 let ids: Vec<String> = some.motions.iter().map(|motion| motion.motion_id.clone()).collect();

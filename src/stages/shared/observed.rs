@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use anyhow::{Context, bail};
+use anyhow::{Context, bail, ensure};
 use polars_core::prelude::AnyValue;
 use rockfrag_core::fragility::ObservedOutcome;
 use rockfrag_core::object::structure_warnings;
@@ -16,22 +16,19 @@ use crate::inputs::{Grid, Heading, InputError};
 use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame;
 
-/// Whether a file holds outcomes, not responses, which have demands.
-pub fn is_list(path: &Path) -> anyhow::Result<bool> {
-    Ok(is_text(path) || ParquetTable::open(path)?.schema().field_with_name("edp").is_err())
-}
-
-fn is_text(path: &Path) -> bool {
-    path.is_file() && !is_table(path)
-}
-
-/// Reads outcomes from CSV or Parquet, and what of it is not used.
-pub fn read(path: &Path) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
-    let grid = match is_text(path) {
-        true => Grid::read(path),
-        false => Grid::from_cells(&frame::cells(&frame::read(&ParquetTable::open(path)?)?, in_full)),
+/// Reads outcomes from CSV or Parquet, and what of it is not used; none of responses, which have demands.
+pub fn read(path: &Path) -> anyhow::Result<Option<(Vec<ObservedOutcome>, Warnings)>> {
+    let grid = if path.is_file() && !is_table(path) {
+        Grid::read(path)
+    } else {
+        let table = ParquetTable::open(path)?;
+        if table.schema().field_with_name("edp").is_ok() {
+            return Ok(None);
+        }
+        Grid::from_cells(&frame::cells(&frame::read(&table)?, in_full))
     };
-    grid.map_err(Into::into).and_then(|grid| outcomes(&grid)).with_context(|| path.display().to_string())
+    let read = grid.map_err(Into::into).and_then(|grid| outcomes(&grid));
+    read.map(Some).with_context(|| path.display().to_string())
 }
 
 fn in_full(value: AnyValue) -> String {
@@ -52,9 +49,8 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
         |heading: &&Heading| means(&heading.name, "outcome") || means(&heading.name, "upright");
     let outcomes: Vec<&str> =
         grid.headings.iter().filter(names_outcome).map(|heading| heading.text.as_str()).collect();
-    if outcomes.len() > 1 {
-        bail!("columns {}; expected one of what befell each object", outcomes.join(", "));
-    }
+    let several = format!("columns {}; expected one of what befell each object", outcomes.join(", "));
+    ensure!(outcomes.len() < 2, several);
     let earthquake = grid.about("earthquake");
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
     let (objects, unused) = objects::in_rows(grid, &others, &ListDefaults::default())?;
@@ -62,20 +58,18 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     let (mut earthquakes, mut rows, mut read) = (HashMap::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", grid.lines[row]);
-        if object.count.is_some_and(|count| count != 1) {
-            bail!("{line}: several objects; expected one in each row");
-        }
+        let is_one = object.count.is_none_or(|count| count == 1);
+        ensure!(is_one, "{line}: several objects; expected one in each row");
         let sides = object.sides().map_err(|problem| anyhow::anyhow!("{line}: {problem}"))?;
         // What stands on both sides of a base falls over the weaker one, the first.
         let (structure, peaks) = (sides[0].structure.clone(), motions.given[row].clamp_to_recorded());
         structure_warnings(&structure).into_iter().for_each(|warning| doubts.add(warning, line.clone()));
         let fell = has_fallen(grid, row, fell)?;
-        if fell && peaks.pga_m_s2 <= structure.uplift_acceleration_m_s2() {
-            bail!(
-                "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? \
-                 leave it out"
-            );
-        }
+        ensure!(
+            !fell || peaks.pga_m_s2 > structure.uplift_acceleration_m_s2(),
+            "{line}: fell, but this PGA does not uplift it: wrong size or PGA, or a rounded base? leave it \
+             out"
+        );
         let cells = (0..grid.headings.len()).filter(|at| Some(*at) != grid.about("outcome"));
         let cells: Vec<&str> = cells.map(|at| grid.cell(row, at)).collect();
         if let Some(first) = rows.insert(cells, grid.lines[row]).filter(|_| grid.about("name").is_some()) {

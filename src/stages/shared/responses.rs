@@ -3,6 +3,7 @@
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::Path;
 
+use anyhow::ensure;
 use rayon::prelude::*;
 use rockfrag_core::fragility::{Case, Cases, Cluster, Group, MOST_CASES};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
@@ -25,15 +26,11 @@ pub fn read(path: &Path, motions: &MotionColumns) -> anyhow::Result<Vec<Cases>> 
     for batch in table.batches(|name| columns.index_of(name).is_ok()) {
         add(&mut all, &mut hashes, &batch?, motions)?;
     }
-    if all.is_empty() {
-        return Err(TableError::table(path, "no responses; expected at least one").into());
-    }
+    ensure!(!all.is_empty(), TableError::table(path, "no responses; expected at least one"));
     hashes.par_sort_unstable();
     let repeated = hashes.windows(2).filter(|pair| pair[0] == pair[1]).count();
-    if repeated > 0 {
-        let problem = format!("{}; keep one of each", counted(repeated, "repeated response"));
-        return Err(TableError::table(path, problem).into());
-    }
+    let problem = || format!("{}; keep one of each", counted(repeated, "repeated response"));
+    ensure!(repeated == 0, TableError::table(path, problem()));
     all.iter_mut().for_each(Cases::sort_clusters);
     Ok(all)
 }
@@ -66,11 +63,9 @@ fn add(
             all.push(Cases::new(group.suite, structures[rows[0]].clone()));
         }
         let cases = &mut all[place];
-        if cases.all.len() + rows.len() > MOST_CASES {
-            let name = group.structure;
-            let problem = format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
-            return Err(TableError::table(&batch.path, problem).into());
-        }
+        let name = group.structure;
+        let problem = || format!("more than {MOST_CASES} responses of '{name}'; take a sample of the rows");
+        ensure!(cases.all.len() + rows.len() <= MOST_CASES, TableError::table(&batch.path, problem()));
         for &row in &rows {
             expect_same(batch, row, &structures[row], &cases.structure)?;
             let case = Case {
