@@ -32,7 +32,7 @@ use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::rows;
-pub use at_site::{AtSite, Usual};
+pub use at_site::AtSite;
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
