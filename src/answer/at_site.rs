@@ -7,23 +7,15 @@ use rockfrag_core::object::RockingObject;
 /// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
 /// consider.
 const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
-/// Bins of intensity.
 const BINS: usize = 60;
 
-/// What is drawn of an object at a site: its fragility there, how often an intensity is exceeded, and where the
-/// rate of overturning comes from.
+/// Its fragility there, how often an intensity is exceeded, and where the rate of overturning comes from.
 #[derive(Debug, Clone)]
 pub struct AtSite {
     pub peak: Peak,
     pub curve: HazardCurve,
     pub parts: RateByIntensity,
     pub fragility: Option<Fragility>,
-}
-
-/// An intensity that comes once in so many years.
-pub struct Usual {
-    pub intensity: f64,
-    pub years: f64,
 }
 
 impl AtSite {
@@ -39,13 +31,11 @@ impl AtSite {
         Some(AtSite { peak, curve, parts, fragility: site.fragility(object) })
     }
 
-    /// The intensities of usual return periods, as far as the curve has them, in the unit of the label.
-    pub fn usual(&self) -> impl Iterator<Item = Usual> {
+    /// Usual return periods, years, and their intensities in the unit of the label, as far as the curve goes.
+    pub fn usual(&self) -> impl Iterator<Item = (f64, f64)> {
         let [(_, often), (_, rarely)] = self.curve.ends();
         let known = USUAL_YEARS.into_iter().filter(move |years| rarely < 1.0 / years && 1.0 / years <= often);
-        known.map(|years| {
-            let intensity = self.curve.intensity(1.0 / years) / self.peak.name_and_unit().1;
-            Usual { intensity, years }
-        })
+        let unit = self.peak.name_and_unit().1;
+        known.map(move |years| (years, self.curve.intensity(1.0 / years) / unit))
     }
 }

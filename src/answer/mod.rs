@@ -32,7 +32,7 @@ use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::rows;
-pub use at_site::{AtSite, Usual};
+pub use at_site::AtSite;
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
@@ -351,18 +351,10 @@ fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
         }
         answers.last_mut().into_iter().for_each(|answer| answer.points.extend(point.point()));
     }
-    let mut joined: Vec<Answer> = Vec::new();
-    for answer in answers {
-        match joined.last_mut() {
-            Some(last)
-                if last.object.structure == answer.object.structure
-                    && last.over_pga.is_none()
-                    && [last, &answer].map(|of| of.fragility.over) == [Some(Peak::Pgv), Some(Peak::Pga)] =>
-            {
-                last.over_pga = Some(Box::new(answer));
-            }
-            _ => joined.push(answer),
-        }
-    }
-    joined
+    let is_beside = |one: &Answer, next: &Answer| {
+        one.object.structure == next.object.structure
+            && [one, next].map(|of| of.fragility.over) == [Some(Peak::Pgv), Some(Peak::Pga)]
+    };
+    let joined = answers.chunk_by(is_beside);
+    joined.map(|of| Answer { over_pga: of.get(1).cloned().map(Box::new), ..of[0].clone() }).collect()
 }

@@ -187,8 +187,7 @@ impl RateColumns {
             rate_changes: overturning.value.map(|_| changes_in_words(&rates.budget)),
             velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,
-            target: None,
-            bases: Bases::default(),
+            ..RateColumns::default()
         };
         let in_years = rates.states.map(|rate| rate.map(|rate| probability_in_years(rate, years)));
         (columns, StateColumns::new(in_years))
@@ -310,11 +309,9 @@ impl UncertaintyColumns {
 
     /// The standard deviations of what is unknown, by source.
     pub fn source_sds(&self) -> Vec<(UncertaintySource, f64)> {
-        let UncertaintyColumns { error_fit, error_magnitude, error_velocity, error_eta, .. } = *self;
-        let UncertaintyColumns { error_wall, error_object, error_floor, error_hazard, .. } = *self;
-        let of_motion = [error_fit, error_magnitude, error_velocity];
-        let of_object = [error_eta, error_wall, error_object, error_floor, error_hazard];
-        let sds = of_motion.into_iter().chain(of_object);
+        let of_motion = [self.error_fit, self.error_magnitude, self.error_velocity];
+        let of_object = [self.error_eta, self.error_wall, self.error_object, self.error_floor];
+        let sds = of_motion.into_iter().chain(of_object).chain([self.error_hazard]);
         let known = UncertaintySource::VARIANTS.iter().zip(sds).map(|(source, sd)| Some((*source, sd?)));
         known.flatten().collect()
     }

@@ -254,13 +254,11 @@ impl Picture {
     /// Draws the marks of a layer, each value at its place or so much further down.
     fn marks(&mut self, layer: &Layer, down: f64, [x, y]: [&Ruler; 2]) {
         let (ink, marks) = (layer.ink, &layer.marks);
-        let places: Vec<Point> =
-            marks.iter().map(|mark| Point::new(x.at(mark.x), y.at(mark.y + down))).collect();
+        let place = |[across, up]: [f64; 2]| Point::new(x.at(across), y.at(up + down));
+        let places: Vec<Point> = marks.iter().map(|mark| place([mark.x, mark.y])).collect();
         let limits = |mark: &Mark| match y.scale {
-            Scale::Names(_) => {
-                [mark.low, mark.high].map(|limit| Point::new(x.at(limit), y.at(mark.y + down)))
-            }
-            _ => [mark.low, mark.high].map(|limit| Point::new(x.at(mark.x), y.at(limit))),
+            Scale::Names(_) => [mark.low, mark.high].map(|limit| place([limit, mark.y])),
+            _ => [mark.low, mark.high].map(|limit| place([mark.x, limit])),
         };
         match layer.style {
             MarkStyle::Points(symbol) => {

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::phrases::{facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, Before};
+use crate::answer::{Answer, AnswerTable, Before, StateColumns};
 use crate::chart::text::literal;
 use crate::figures::answers::{self, BANDS};
 use crate::figures::common::by;
@@ -132,7 +132,7 @@ const COLUMNS: [(&str, Cell); 23] = [
         fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
     }),
     ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
-    ("rocks too far @, %", failure),
+    ("rocks too far @, %", |answer| of_states(answer, |p| OF_HUNDRED.value(p.p_failure))),
     ("friction needed", |answer| answer.object.friction_needed().map_or(String::new(), |of| fixed(of, 2))),
     ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
@@ -184,9 +184,10 @@ fn changes(variants: &[Answer], when: &str) -> Option<Table> {
     })
 }
 
-/// The cell of an object that has an answer.
-fn answered(answer: &Answer, cell: String) -> String {
-    if answer.is_answered() { cell } else { String::new() }
+/// A cell of the probabilities of an object that has them.
+fn of_states(answer: &Answer, cell: fn(&StateColumns) -> String) -> String {
+    let has_them = answer.is_answered() && answer.fragility.over.is_none();
+    if has_them { cell(&answer.p) } else { String::new() }
 }
 
 fn of_before(answer: &Answer, cell: fn(&Before) -> String) -> String {
@@ -199,16 +200,7 @@ fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
 }
 
 fn limits(answer: &Answer) -> String {
-    if answer.fragility.over.is_some() {
-        return of_fragility(answer, 1);
-    }
-    answered(answer, OF_HUNDRED.span(answer.p.p_overturning))
-}
-
-/// Of a fragility there is none.
-fn failure(answer: &Answer) -> String {
-    let is_curve = answer.fragility.over.is_some();
-    if is_curve { String::new() } else { answered(answer, OF_HUNDRED.value(answer.p.p_failure)) }
+    of_fragility(answer, 1) + &of_states(answer, |p| OF_HUNDRED.span(p.p_overturning))
 }
 
 /// The base with which an object meets the target, if there is one.

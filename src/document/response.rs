@@ -140,8 +140,7 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     let figure = Figure::new(&format!("response-{structure}-{motion}"), &response.title(), 1, HEIGHT, panels);
     let ([start, end], sentence) = ([low, high].map(|time_s| number::fixed(time_s, 1)), response.sentence());
     Figure { beside: moving(response, id), ..figure }.explained(format!(
-        "{sentence} A block that rocks alike, in real time from {start} to {end} s. Dots: uplift and impacts. \
-         Dashed: the tipping angle, its slenderness *α*."
+        "{sentence} A block that rocks alike, in real time from {start} to {end} s; dashed: the tipping angle."
     ))
 }
 

@@ -7,7 +7,7 @@ use rockfrag_core::statistics::normal::Z_95;
 use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
-use crate::answer::{Answer, AtSite, ObjectColumns, Usual, over_all};
+use crate::answer::{Answer, AtSite, ObjectColumns, over_all};
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
@@ -20,11 +20,6 @@ pub const BANDS: [f64; 2] = [0.02, 0.1];
 /// The most objects of a list, and the most curves in one panel.
 const ROWS: usize = 60;
 const CURVES: usize = 6;
-
-/// How rare an intensity is: `475 years`.
-fn years(years: f64) -> String {
-    format!("{} years", count(years as usize))
-}
 
 /// The figure of an object: what there is of its panels.
 pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> Figure {
@@ -53,28 +48,23 @@ pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
     }
     let over_pga: Vec<&Answer> = answers.iter().filter_map(|answer| answer.over_pga.as_deref()).collect();
     let peaks = [("fragility", answers), ("fragility-pga", &over_pga)].into_iter();
-    let drawn = peaks.filter_map(|(name, answers)| {
-        Some(overturning(name, answers, answers.iter().find_map(|answer| answer.fragility.over)?))
-    });
-    drawn.collect()
+    peaks.filter_map(|(name, answers)| overturning(name, answers)).collect()
 }
 
 /// Overturning of several objects over one peak.
-fn overturning(name: &str, answers: &[&Answer], over: Peak) -> Figure {
+fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
+    let over = answers.iter().find_map(|answer| answer.fragility.over)?;
     let mut layers = Vec::new();
     for (number, answer) in answers.iter().take(CURVES).enumerate() {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
         layers.push(Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks));
     }
-    let rest = match answers.len().saturating_sub(CURVES) {
-        0 => String::new(),
-        rest => format!(" Not drawn: {} that take a stronger motion.", counted(rest, "object")),
-    };
     let (what, averaged) = (over.name_and_unit().0, averaged(over));
-    let caption = format!("Probability of overturning under a motion of this {what}, {averaged}.{rest}");
+    let (drawn, all) = (layers.len(), counted(answers.len(), "object"));
+    let caption = format!("Overturning under a motion of this {what}, {averaged}: {drawn} of {all}.");
     let panel = curves_panel("", over, layers);
     let title = "How strong a motion overturns each object";
-    Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption)
+    Some(Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption))
 }
 
 /// How likely each object of a list overturns, the worst first; those on floors with their floor.
@@ -93,11 +83,8 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
         ProbabilityRow { name, values, words }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
-    let rest = match answers.len() - drawn.len() {
-        0 => String::new(),
-        rest => format!(" Not drawn: {} that are less likely to overturn.", counted(rest, "object")),
-    };
-    let caption = format!("Probability of overturning {when} with 95 % limits.{rest}");
+    let all = counted(answers.len(), "object");
+    let caption = format!("Probability of overturning {when} with 95 % limits: {} of {all}.", rows.len());
     let panel = (!rows.is_empty()).then(|| probabilities("", when, &rows, target));
     let title = "How likely each object is to overturn";
     Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
@@ -140,10 +127,6 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
     ];
     let [width_m, height_m] = [width, height].map(|side| format!("{} m", number::length(side)));
     let degrees = significant(alpha_rad.to_degrees(), 3);
-    let caption = format!(
-        "To scale, with its centre of mass, {}. It tips over its weaker side at {degrees}°.",
-        object.place()
-    );
     let x = Axis::linear("").over(-2.0 * room, right + 3.6 * room);
     let y = Axis::linear("").over(-1.1 * room, top + 0.3 * room);
     let words = [
@@ -153,7 +136,7 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
     ];
     let words = words.map(|(x, y, text, position, ink)| Words { x, y, text, position, ink }).into();
     let panel = Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers) };
-    Some(panel.explained(caption))
+    Some(panel.explained(format!("To scale, {}; it tips over its weaker side.", object.place())))
 }
 
 /// The curve of a limit state, in percent; with its limits if they are wanted.
@@ -191,14 +174,15 @@ fn fragility_panel(
     ];
     let mut panel = curves_panel(&format!("Fragility over {}", over.name_and_unit().0), over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
-    for Usual { intensity: x, years: period } in drawn.iter().flat_map(|drawn| drawn.usual()) {
-        panel.add_upright(upright(x, 100.0, years(period)), 0.0);
+    for (years, intensity) in drawn.iter().flat_map(|drawn| drawn.usual()) {
+        panel.add_upright(once_in(years, intensity, 100.0), 0.0);
     }
     let (what, place) = (over.name_and_unit().0, if drawn.is_some() { " at the site" } else { "" });
     panel.explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(over)))
 }
 
-fn upright(x: f64, y: f64, text: String) -> Words {
+fn once_in(years: f64, x: f64, y: f64) -> Words {
+    let text = format!("{} years", count(years as usize));
     Words { x, y, text, position: LabelPosition::Along, ink: Ink::Muted }
 }
 
@@ -216,30 +200,25 @@ fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
     let rows: Vec<ProbabilityRow> = rows.collect();
     let when = answer.when().unwrap_or_default();
     let caption = format!(
-        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution as a \
-         test may find it (16 and 84 % quantiles). Anchored, it does not rock: for the forces see ASCE 7, \
-         chapter 13, or EN 1998-1, 4.3.5."
+        "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution at its \
+         16 and 84 % quantiles. Anchored, it does not rock."
     );
     probabilities("What would change it", &when, &rows, answer.rates.target).explained(caption)
 }
 
 fn hazard_panel(drawn: &AtSite) -> Panel {
-    let (what, unit, symbol) = drawn.peak.name_and_unit();
+    let (what, unit, _) = drawn.peak.name_and_unit();
     let [_, (_, lowest)] = drawn.curve.ends();
     let mut panel =
         Panel::new("Hazard", peak_axis(drawn.peak), Axis::log("exceeded, times a year"), Vec::new());
-    let (mut words, mut dots) = (Vec::new(), Vec::new());
-    for Usual { intensity, years: period } in drawn.usual() {
-        let (text, y) = (years(period), 1.0 / period);
-        words.push(format!("{} {symbol} once in {text}", significant(intensity, 2)));
-        dots.push(Mark::new(intensity, y));
-        panel.add_upright(upright(intensity, y, text), lowest);
+    for (years, intensity) in drawn.usual() {
+        panel.add_upright(once_in(years, intensity, 1.0 / years), lowest);
     }
+    let dots = drawn.usual().map(|(years, intensity)| Mark::new(intensity, 1.0 / years));
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("hazard curve", Ink::Text, curve).unlisted());
     panel.layers.push(Layer::points("usual return periods", Ink::Text, Symbol::Disc, dots).unlisted());
-    let caption = format!("How often {what} is exceeded at the site: {}.", words.join(", "));
-    panel.explained(caption)
+    panel.explained(format!("How often {what} is exceeded at the site."))
 }
 
 /// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
@@ -257,13 +236,8 @@ fn shares(drawn: &AtSite) -> Option<Panel> {
         return None;
     }
     let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
-    let beyond = match parts.beyond / all {
-        share if share >= 0.0005 => format!(" {} lies beyond the hazard curve.", PERCENT.one(share)),
-        _ => String::new(),
-    };
-    let caption = format!(
-        "Which motions overturn it: its rate of overturning by {what}; the whole area is 100 %.{beyond}"
-    );
+    let beyond = PERCENT.one(parts.beyond / all);
+    let caption = format!("Rate of overturning by {what}; {beyond} of it lies beyond the hazard curve.");
     let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
     Some(Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption))
@@ -280,28 +254,29 @@ fn unknown(answer: &Answer) -> Option<Panel> {
         let [name, remedy, _] = of_source(*source);
         format!("{name}: {remedy}")
     }));
-    let (mut marks, mut words) = (Vec::new(), Vec::new());
-    for (row, (_, sd)) in parts.iter().enumerate() {
-        let (x, y) = ((Z_95 * sd).exp(), row as f64);
-        marks.push(Mark { low: 1.0, high: x, ..Mark::new(x, y) });
-        let text = format!("× {}", significant(x, 2));
-        words.push(Words { x, y, text, position: LabelPosition::Margin, ink: Ink::Text });
-    }
+    let factors = || parts.iter().map(|(_, sd)| (Z_95 * sd).exp());
+    let marks = factors().zip(0_i32..).map(|(x, row)| Mark { low: 1.0, high: x, ..Mark::new(x, row.into()) });
     let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
+    let words = in_margin(factors().map(|factor| format!("× {}", significant(factor, 2))));
     let caption = format!(
-        "What is not known, and what would narrow it: how far each may raise or lower the {what} of \
-         overturning (95 % limits)."
+        "How far each may raise or lower the {what} of overturning (95 % limits), and what would narrow it."
     );
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
 
+/// Words at the right edge of each row.
+fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
+    let place = |(row, text)| Words { x: 0.0, y: row, text, position: LabelPosition::Margin, ink: Ink::Text };
+    (0_i32..).map(f64::from).zip(texts).map(place).collect()
+}
+
 /// A row of a panel of probabilities.
-pub struct ProbabilityRow {
-    pub name: String,
+struct ProbabilityRow {
+    name: String,
     /// One below the other, each in a colour that the legend names.
-    pub values: Vec<(Interval<Option<f64>>, Ink, &'static str)>,
+    values: Vec<(Interval<Option<f64>>, Ink, &'static str)>,
     /// At the right edge.
-    pub words: String,
+    words: String,
 }
 
 impl ProbabilityRow {
@@ -312,16 +287,14 @@ impl ProbabilityRow {
 }
 
 /// A panel of rows, in percent, over all values and the target.
-pub fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
-    let (mut layers, mut words): (Vec<Layer>, _) = (Vec::new(), Vec::new());
+fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
+    let mut layers: Vec<Layer> = Vec::new();
     let mut ends: Vec<f64> = target.into_iter().collect();
     for (at, row) in rows.iter().enumerate() {
-        let (y, text) = (at as f64, row.words.clone());
-        words.push(Words { x: 0.0, y, text, position: LabelPosition::Margin, ink: Ink::Text });
         for (p, ink, label) in &row.values {
             ends.extend([p.value, p.low, p.high].into_iter().flatten());
             let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-            let mark = Mark { low, high, ..Mark::new(x, y) };
+            let mark = Mark { low, high, ..Mark::new(x, at as f64) };
             match layers.iter_mut().find(|layer| layer.ink == *ink) {
                 Some(layer) => layer.marks.push(mark),
                 None => layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
@@ -339,6 +312,6 @@ pub fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: O
         panel.add_upright(words, rows.len() as f64 - 0.5);
     }
     panel.layers.extend(layers);
-    panel.words.extend(words);
+    panel.words.extend(in_margin(rows.iter().map(|row| row.words.clone())));
     panel
 }

@@ -94,6 +94,11 @@ pub fn short_label(measure: &Measure) -> String {
     }
 }
 
+/// Short names of a measure or two, marked text.
+pub fn short_labels(predictors: &Predictors) -> String {
+    predictors.measures().map(short_label).collect::<Vec<_>>().join(", ")
+}
+
 /// Label of a measure by which motions are scaled.
 pub fn scaled_label(measure: ScaledMeasure) -> &'static str {
     match measure {

@@ -12,10 +12,10 @@ use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label};
+use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
 use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel, Symbol};
-use crate::number::{self, PERCENT};
+use crate::number;
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;
@@ -47,8 +47,8 @@ pub fn demand(groups: &[&Cases]) -> Figure {
         (0..cases.all.len()).filter_map(move |row| Some(ratio(row) * period(cases, row)?))
     });
     let ratios: Vec<f64> = ratios.collect();
-    let quantile = |share| sample_quantile(ratios.clone(), share);
-    let [low, value, high] = [0.05, 0.5, 0.95].map(|share| quantile(share).unwrap_or(f64::NAN));
+    let quantile = |share| sample_quantile(ratios.clone(), share).unwrap_or(f64::NAN);
+    let [low, value, high] = [0.05, 0.5, 0.95].map(quantile);
     let c = Interval { value, low, high };
     let pulses = groups.iter().filter(|cases| cases.all.iter().any(|case| case.measures.im1.is_some()));
     let planes = pulses.clone().map(|cases| outcomes(cases, c));
@@ -58,16 +58,14 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
     let panels: Vec<Panel> = planes.chain(over_velocity).chain(over_period).collect();
     let mut caption = format!(
-        "What came of the motions over velocity and period of their pulses, and the demand over each. Where \
-         the structure does not rock the demand stands at the bottom, where it overturns at the top; demands \
-         below {LEAST} are not drawn."
+        "Outcomes over velocity and period of the pulse, and demand over each: at the bottom where the \
+         structure does not rock, at the top where it overturns; none below {LEAST}."
     );
     if value > 0.0 {
         let [value, low, high] = [value, low, high].map(|c| number::significant(c, 2));
         caption += &format!(
-            " The line is Eq. 5 for the pulse alone, whose PGA is *c* *V*_{{p}} / *T*_{{p}}: *V*_{{p}} = *g* \
-             tan *α* *T*_{{p}} / *c* with *c* = {value}, the median of the pulses; its band is that of 90 % of \
-             them, {low} to {high}."
+            " Line: Eq. 5 for the pulse alone, *V*_{{p}} = *g* tan *α* *T*_{{p}} / *c* with the median *c* = \
+             {value} of PGA *T*_{{p}} / *V*_{{p}}; band: 90 % of the pulses, {low} to {high}."
         );
     }
     let columns = groups.len().clamp(2, 3);
@@ -91,22 +89,11 @@ fn marked(cases: &Cases, place: impl Fn(usize) -> Option<Mark>) -> Vec<Layer> {
 /// Velocity over period, and the line of Eq. 5 with `c` = PGA Tp / Vp; without pulses it is not known.
 fn outcomes(cases: &Cases, c: Interval) -> Panel {
     let mut layers = marked(cases, |row| Some(Mark::new(period(cases, row)?, velocity(cases, row).0)));
-    let marks = || layers.iter().flat_map(|layer| &layer.marks);
-    let (periods, velocities) =
-        (Range::over(marks().map(|mark| mark.x)), Range::over(marks().map(|mark| mark.y)));
-    let [rest, safe, fallen] = [0, 1, 2].map(|layer| number::count(layers[layer].marks.len()));
-    let mut caption =
-        format!("{rest} motions do not rock the structure, {safe} rock it, {fallen} overturn it.");
+    let marks = layers.iter().flat_map(|layer| &layer.marks);
+    let over = |value: fn(&Mark) -> f64| Range::over(marks.clone().map(value));
+    let (periods, velocities) = (over(|mark| mark.x), over(|mark| mark.y));
     let limit = |period_s: f64, c: f64| cases.structure.uplift_acceleration_m_s2() * period_s / c;
     if c.value > 0.0 {
-        let at_rest = |is_below: bool| {
-            let side = |mark: &&Mark| (mark.y < limit(mark.x, c.value)) == is_below;
-            let share =
-                layers[0].marks.iter().filter(side).count() as f64 / marks().filter(side).count() as f64;
-            PERCENT.one(share)
-        };
-        let [below, above] = [true, false].map(at_rest);
-        caption += &format!(" Of those below the line {below} do not rock it, of those above {above}.");
         let line = [periods.low, periods.high].map(|x| Mark {
             low: limit(x, c.high),
             high: limit(x, c.low),
@@ -115,7 +102,7 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
         layers.push(Layer::line("Eq. 5 for the pulse alone", Ink::Text, line));
     }
     let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
-    Panel::new(&name(cases), Axis::log(PERIOD), y, layers).explained(caption)
+    Panel::new(&name(cases), Axis::log(PERIOD), y, layers)
 }
 
 fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> Panel {
@@ -158,8 +145,8 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         panels.push(panel);
     }
     let group = name(cases);
-    let caption = "Demand in safe rocking over each measure of Eq. 13, with ln EDP = ln *a* + *b* ln IM. *β* \
-                   is the dispersion, *ζ* = *β*/*b*.";
+    let caption =
+        "Demand in safe rocking with ln EDP = ln *a* + *b* ln IM; *β* is the dispersion, *ζ* = *β*/*b*.";
     let file = format!("regressions-{}", file_words(&group));
     Figure::new(&file, &format!("Demand over one measure: {group}"), 3, 90.0, panels)
         .explained(compare(caption, "Figure 7"))
@@ -173,22 +160,21 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
         let all = laws.clone().map(|fit| (fit.group(), fit.predictors(), value(fit)));
         dots(all.collect(), x, groups)
     };
-    let from_zero = |label: &str, value: fn(&DemandFit) -> Option<f64>| {
-        Axis::linear(label).over(0.0, 1.08 * laws.clone().filter_map(value).fold(0.0, f64::max))
+    let from_zero = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
+        let most = laws.clone().filter_map(value).fold(0.0, f64::max);
+        panel(value, Axis::linear(label).over(0.0, 1.08 * most))
     };
     let scores = fits.curves.iter().map(|fit| (fit.group(), fit.predictors(), fit.held_out_log_score));
     let score = Axis::linear("log score of overturning on held-out cases (more is better)");
     let panels = [
-        panel(|fit| fit.r2, from_zero("*R*^{2} (more is better)", |fit| fit.r2)),
-        panel(|fit| fit.beta, from_zero("*β* (less is better)", |fit| fit.beta)),
+        from_zero(|fit| fit.r2, "*R*^{2} (more is better)"),
+        from_zero(|fit| fit.beta, "*β* (less is better)"),
         panel(zeta, Axis::log("|*ζ*| = *β* / |*b*| (less is better)")),
         dots(scores.collect(), score, groups),
     ];
-    let caption = "Of the regressions of the demand over all cases, and of the lognormal curves of \
-                   overturning; a measure without a dot has no fit.";
-    let figure =
-        Figure::new("quality", "Quality of the measures", 2, 0.0, panels.into_iter().flatten().collect());
-    figure.explained(compare(caption, "Figure 8"))
+    let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit.";
+    let panels = panels.into_iter().flatten().collect();
+    Figure::new("quality", "Quality of the measures", 2, 0.0, panels).explained(compare(caption, "Figure 8"))
 }
 
 /// The number of a fit, of which group, and its measures.
@@ -197,7 +183,7 @@ type Quality<'a> = (Group<'a>, Predictors, Option<f64>);
 /// A panel with a row for each set of measures and a dot for each group; none without a dot.
 fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
     let rows = by(&all, |(_, predictors, _)| predictors);
-    let names = rows.iter().map(|row| row[0].1.measures().map(short_label).collect::<Vec<_>>().join(", "));
+    let names = rows.iter().map(|row| short_labels(&row[0].1));
     let mut layers = Vec::new();
     for (number, cases) in groups.iter().enumerate() {
         let marks = rows.iter().zip(0_i32..).filter_map(|(row, place)| {
@@ -220,11 +206,10 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
         panels.extend(high.range_low.map(|transition| planes_panel(cases, transition, coefficients)));
     }
-    let caption = "Demand in safe rocking over ln IM4 and ln IM3 with its two planes (Table II), from the \
-                   viewpoint of the paper: along the line in which the planes meet, from where both are lines.";
-    let caption =
-        compare(caption, "Figure 9") + " There, velocity and period stand in place of the two measures.";
-    Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels).explained(caption)
+    let caption = "Demand in safe rocking over ln IM4 and ln IM3, in the paper velocity and period, with its \
+                   two planes (Table II), seen along the line in which they meet.";
+    Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels)
+        .explained(compare(caption, "Figure 9"))
 }
 
 /// The planes below the transition and from there on are ln a, b1 and b2 over ln IM4 and ln IM3.

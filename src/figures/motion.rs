@@ -100,12 +100,9 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
         Panel::new("In their own units", Axis::linear("time (s)"), Axis::linear("*θ* (rad)"), own),
         Panel::new("Dimensionless", Axis::linear("*p t*"), Axis::linear("*θ* / *α*"), dimensionless),
     ];
-    let [faster, stronger] = [faster, stronger].map(|ratio| number::significant(ratio, 3));
+    let motion = words(motion);
     let caption = format!(
-        "Rotation under a motion ({}), and of a structure of {faster} times the *p* under the same motion, \
-         {faster} times as fast and {stronger} times as strong. In dimensionless axes the two responses \
-         coincide, apart from a small effect of *α*.",
-        words(motion)
+        "Rotation of two structures under one motion ({motion}), scaled in time by *p*, in size by tan *α*."
     );
     let figure = Figure::new("similarity", "Two similar responses", 2, 105.0, panels);
     Some(figure.explained(compare(&caption, "Figure 5")))

@@ -10,7 +10,7 @@ use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, by, called, compare, demands, estimate, label, name};
-use super::common::{observed_shares, ratio_bins, rocked, short_label};
+use super::common::{observed_shares, ratio_bins, rocked, short_labels};
 use crate::chart::text::{literal, minus};
 use crate::chart::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number;
@@ -37,8 +37,8 @@ pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
     });
     let panels = panels.filter(|panel| !panel.layers.is_empty());
     let caption = format!(
-        "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3 \
-         and by IM4 alone where it has a curve; bands: 95 %.",
+        "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3, \
+         with a gap between them, and by IM4 alone where it has a curve; bands: 95 %.",
         number::plain(fits.limit_state)
     );
     let title = "Exceeding the limit state in safe rocking";
@@ -59,20 +59,10 @@ fn exceeding(fits: &Fits, cases: &Cases, im3: &[f64]) -> Panel {
     for (number, (share, dash)) in SHARES.into_iter().enumerate() {
         let Some((im3, from)) = sample_quantile(im3.to_vec(), share).zip(transition) else { continue };
         let p = |im4: f64| p(planes.iter().find(|fit| fit.holds_at(im4))?, im4, im3);
-        let before = from * (1.0 - 1e-9);
-        let im4 =
-            equal_ratios(1.0, before, STEPS).chain([f64::NAN]).chain(equal_ratios(from, highest, STEPS));
+        let below = equal_ratios(1.0, from * (1.0 - 1e-9), STEPS);
+        let im4 = below.chain([f64::NAN]).chain(equal_ratios(from, highest, STEPS));
         let words = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
         panel.layers.push(curve(&words, Ink::Data(number), dash, im4, p));
-        if let Some((below, above)) = p(before).zip(p(from)).filter(|_| share == 0.5) {
-            let verb = if above.value < below.value { "falls" } else { "rises" };
-            let [below, above] = [below, above].map(|p| number::fixed(p.value, 3));
-            let from = number::significant(from, 3);
-            panel.caption = format!(
-                "As IM4 passes {from}, from one plane to the other, *P*_{{ex}} at the median IM3 {verb} from \
-                 {below} to {above}."
-            );
-        }
     }
     let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     panel.layers.extend(alone.map(|fit| {
@@ -94,9 +84,8 @@ fn curve(
 }
 
 /// What the captions of Figures 11 and 12 say of curves.
-const CURVES: &str = "*μ* = ln *θ* is the logarithm of the median, *β* the dispersion; bands: 95 %. Where \
-                      *P*_{ro} falls with a measure, *β* is that of its inverse. Dots are observed fractions \
-                      with 95 % limits.";
+const CURVES: &str = "*μ* = ln *θ*, *θ* the median, *β* the dispersion (where *P*_{ro} falls, of the inverse \
+                      measure). Dots: observed fractions. Bands and bars: 95 %.";
 
 /// Figure 11: probability of overturning over single measures; a panel a structure and measure.
 pub fn overturning(fits: &Fits, groups: &[&Cases]) -> Figure {
@@ -108,23 +97,10 @@ pub fn overturning(fits: &Fits, groups: &[&Cases]) -> Figure {
 
 /// Figure 12: probability of overturning over hybrid measures (Eq. 23); a panel a structure and pair.
 pub fn hybrids(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let mut caption = format!(
-        "Lognormal curves over hybrid measures (Eqs. 23 and 24): {CURVES} Below 0, *λ* makes one of the two \
-         exponents negative."
+    let caption = format!(
+        "Lognormal curves over hybrid measures (Eqs. 23 and 24): {CURVES} As IM5 = IM4 / IM3, the hybrids of \
+         any two of these three are one model."
     );
-    // Pairs of the same likelihood are one model, as IM4 and IM5 = IM4 / IM3 are with IM3.
-    let likelihood = |pair: &Predictors| fits.curve(groups.first()?, pair)?.log_likelihood;
-    let pairs = predictors(fits, groups).into_iter().filter_map(|pair| Some((likelihood(&pair)?, pair)));
-    let pairs: Vec<(f64, Predictors)> = pairs.filter(|(_, pair)| pair.im_y.is_some()).collect();
-    for same in
-        by(&pairs, |(likelihood, _)| (1e4 * likelihood).round()).into_iter().filter(|same| same.len() > 1)
-    {
-        let names: Vec<String> = same.iter().map(|(_, pair)| short_labels(pair)).collect();
-        caption += &format!(
-            " The hybrids of {} are one model with other parameters: they give each motion the same *P*_{{ro}}.",
-            names.join(" and of ")
-        );
-    }
     let panels = over(fits, groups, |predictors| predictors.im_y.is_some());
     Figure::new("hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
         .explained(compare(&caption, "Figure 12"))
@@ -134,10 +110,6 @@ pub fn hybrids(fits: &Fits, groups: &[&Cases]) -> Figure {
 fn predictors(fits: &Fits, groups: &[&Cases]) -> Vec<Predictors> {
     let its = fits.curves.iter().filter(|fit| groups.iter().any(|cases| cases.group() == fit.group()));
     by(its, CurveFit::predictors).into_iter().map(|fits| fits[0].predictors()).collect()
-}
-
-fn short_labels(predictors: &Predictors) -> String {
-    predictors.measures().map(short_label).collect::<Vec<_>>().join(", ")
 }
 
 /// P_ro over measures, a panel for each structure and each of the measures that are wanted.
@@ -161,7 +133,9 @@ fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Pane
     for (number, cases) in groups.iter().enumerate() {
         let (ink, series) = (Ink::Data(number), literal(cases.suite.as_deref().unwrap_or("motions")));
         let fit = fits.curve(cases, predictors);
-        words.push((format!("{series}: {}", fit.map_or("no curve".to_string(), parameters)), ink));
+        let text = format!("{series}: {}", fit.map_or("no curve".to_string(), parameters));
+        let y = 0.95 - 0.1 * number as f64;
+        words.push(Words { x: f64::NAN, y, text, position: LabelPosition::Right, ink });
         let layers = fit.map_or(Vec::new(), |fit| overturned(fit, cases));
         let coloured = |layer| Layer { ink, series: series.clone(), is_listed: false, ..layer };
         panel.layers.extend(layers.into_iter().map(coloured));
@@ -171,10 +145,7 @@ fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Pane
     let falls = fits.curve(groups[0], predictors).is_some_and(|fit| beta(&fit.coefficients).value < 0.0);
     let (x, position) =
         if falls { (span.high, LabelPosition::Left) } else { (span.low, LabelPosition::Right) };
-    let lines = words.into_iter().enumerate();
-    panel.words = lines
-        .map(|(line, (text, ink))| Words { x, y: 0.95 - 0.1 * line as f64, text, position, ink })
-        .collect();
+    panel.words = words.into_iter().map(|words| Words { x, position, ..words }).collect();
     panel
 }
 
@@ -216,8 +187,8 @@ fn overturned(fit: &CurveFit, cases: &Cases) -> Vec<Layer> {
 
 /// Maps of overturning, a panel a group.
 pub fn maps(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let caption = "Each point is a motion in which the structure rocks. Lines join motions of equal \
-                   probability of overturning by the model, calibrated with these responses.";
+    let caption = "Points: motions in which the structure rocks. Lines: equal probability of overturning by \
+                   the calibrated model.";
     let panels = groups.iter().map(|cases| map(fits, cases)).collect();
     Figure::new("map", "Overturning over PGA and PGV", 2, 150.0, panels).explained(caption)
 }

@@ -22,10 +22,8 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
     levels.sort_unstable_by(f64::total_cmp);
     levels.dedup();
     let panels = fits.iter().take(PANELS).map(|fit| capacity_panel(fit, rows, stripes, &levels)).collect();
-    let caption = "Grey: fraction of the motions that have overturned the structure at or below an \
-                   intensity, with its lognormal curve (orange). Blue: fraction that overturns it at exactly \
-                   this intensity, with 95 % limits; it is lower where a structure survives a stronger \
-                   version of a motion that overturned it.";
+    let caption = "Fractions of the motions that overturn the structure at or below an intensity and, with \
+                   95 % limits, at it: fewer, where it survives a stronger version of a motion.";
     Figure::new("ida", "Incremental dynamic analysis", 2, 118.0, panels).explained(caption)
 }
 
@@ -81,7 +79,6 @@ pub fn validation(bins: &[ReliabilityBin]) -> Figure {
         let (x, y) = (Axis::fraction("predicted probability"), Axis::fraction("observed fraction"));
         panels.push(Panel::new(&name, x, y, layers));
     }
-    let caption =
-        "Cases in bins of predicted probability: its mean, and the observed fraction with 95 % limits.";
+    let caption = "Mean predicted probability and observed fraction, with 95 % limits, in bins.";
     Figure::new("validation", "Predicted and observed", 2, 140.0, panels).explained(caption)
 }

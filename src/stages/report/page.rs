@@ -50,8 +50,7 @@ one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthqua
 Dynamics 44, 2015\u{2013}2033).
 fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to \
 24), or the universal surface over peak acceleration and velocity, calibrated to the responses.
-ida: Each motion is scaled until it overturns the structure; a lognormal distribution of these intensities \
-has the median.
+ida: Each motion is scaled until it overturns the structure; these intensities are taken as lognormal.
 validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
 evaluate: Probabilities are those of the model; annual rates integrate them over the hazard of the site.";
 
@@ -76,7 +75,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
-    let more = if is_client { Vec::new() } else { more };
     let mut tests = tests(tables)?;
     if head.tables.is_empty() {
         head.tables.extend(tests.drain(..tests.len().min(1)));
@@ -84,7 +82,7 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
         Document { tables: claims(tables), ..section("The paper's claims") },
-        Document { figures: more, ..section("More figures") },
+        Document { figures: if is_client { Vec::new() } else { more }, ..section("More figures") },
         Document { facts: method.collect(), ..section("Method") },
         Document { facts: folded, tables: tests, ..section("Tests and fits") },
         Document { tables: vec![files(tables)], ..section("Files") },
@@ -98,15 +96,14 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
 
 /// Draws all figures; what is too much to draw is left out.
 fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
-    let rocking: Vec<&Cases> = tables.groups.iter().filter(|cases| rocked(cases).next().is_some()).collect();
-    let groups = &rocking[..rocking.len().min(MOST_GROUPS)];
-    if groups.len() < rocking.len() {
-        let names: Vec<String> = rocking[groups.len()..].iter().map(|cases| name(cases)).collect();
-        let names = names.join(", ");
+    let rocking = tables.groups.iter().filter(|cases| rocked(cases).next().is_some());
+    let mut groups: Vec<&Cases> = rocking.collect();
+    let rest = groups.split_off(groups.len().min(MOST_GROUPS));
+    if !rest.is_empty() {
+        let names = rest.into_iter().map(name).collect::<Vec<_>>().join(", ");
         tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
     }
     let suite = |cases: &&Cases| cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
-    let mut groups = groups.to_vec();
     groups.sort_by_key(|cases| suite(cases).map_or(usize::MAX, |suite| suite as usize));
     let (motions, fits) = (tables.motions()?, &tables.fits);
     let stripes = tables.rows(Kind::Stripes)?;
@@ -127,7 +124,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// The figure of all groups; if it wouldhave more panels than four, or more groups than colours, one a
+/// The figure of all groups; if it would have more panels than four, or more groups than colours, one a
 /// structure.
 fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Figure> {
     let whole = draw(groups);
@@ -235,18 +232,15 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         None => "median PGV (m/s), lognormal curve".to_string(),
     };
     let often = "as often as the surface predicts";
-    let angles = ["*p*, rad/s", "*α*", "*η*"];
-    let counts = ["number", "rock", "overturn", often, &median, "dispersion"];
-    let heads = [&["structure", "motions"][..], &angles, &counts].concat();
+    let structure = ["structure", "motions", "*p*, rad/s", "*α*", "*η*"];
+    let heads = [&structure[..], &["number", "rock", "overturn", often, &median, "dispersion"]].concat();
     let mut rows = Vec::new();
     for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
         let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
-        let (theta, beta) = match capacity {
-            Some(fit) => (fit.theta, fit.beta),
-            None => curve_parameters(tables, cases),
-        };
+        let by_curve = || curve_parameters(tables, cases);
+        let (theta, beta) = capacity.map_or_else(by_curve, |fit| (fit.theta, fit.beta));
         let all = cases.all.len();
         let counts = [all, all - cases.count(Outcome::NoRocking), cases.count(Outcome::Overturned)];
         let mut row = vec![called(&cases.structure), literal(cases.suite.as_deref().unwrap_or_default())];
@@ -257,8 +251,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         row.extend([theta, beta].map(|value| TWO_DIGITS.both(value, "")));
         rows.push(row);
     }
-    let table = Table::new(&heads, rows);
-    Ok(table.explained("Motions that rock and overturn each structure, with 95 % limits"))
+    Ok(Table::new(&heads, rows).explained("Motions that rock and overturn each structure, with 95 % limits"))
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
@@ -271,16 +264,13 @@ fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, I
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let published = tables.compared.iter().filter(|number| number.plane.is_none());
-    let planes = tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
-    let validations: Vec<Validation> = tables.rows(Kind::Validation)?;
     let mut all = vec![outcomes(tables)?];
     // A client's page has no curves and planes of the paper.
     if tables.answers.is_empty() {
         all.extend([
             table(
                 "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
-                published,
+                tables.compared.iter().filter(|number| number.plane.is_none()),
                 "quantity structure suite published mean z ours ours_z",
             ),
             table(
@@ -290,14 +280,14 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             ),
             table(
                 "Planes of the demand",
-                planes,
+                tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar),
                 "structure suite range_low range_high r2 beta n largest_difference status",
             ),
         ]);
     }
     all.push(table(
         "Validation: events observed and expected",
-        validations,
+        tables.rows::<Validation>(Kind::Validation)?,
         "structure suite event model n observed expected expected_error log_score calibration_slope",
     ));
     all.retain(|table| !table.rows.is_empty());
