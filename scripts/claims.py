@@ -192,8 +192,8 @@ rows.select(columns).write_csv(ROOT / "core/data/claims.csv")
 
 
 def markdown(rows):
-    lines = [rows.columns, ["---"] * rows.width, *rows.rows()]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+    head, *lines = ["| " + " | ".join(line) + " |" for line in (rows.columns, *rows.rows())]
+    return "\n".join([head, "|---" * rows.width + "|", *lines])
 
 
 places = (1 - np.floor(np.log10(reach.to_numpy() + 1e-9))).clip(0, 4).astype(int)

@@ -15,7 +15,7 @@ use rockfrag_core::statistics::{Interval, Range};
 use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
 use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel, Symbol};
-use crate::number;
+use crate::number::{self, PERCENT};
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;
@@ -92,8 +92,18 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
     let marks = layers.iter().flat_map(|layer| &layer.marks);
     let over = |value: fn(&Mark) -> f64| Range::over(marks.clone().map(value));
     let (periods, velocities) = (over(|mark| mark.x), over(|mark| mark.y));
+    let [rest, safe, fallen] = [0, 1, 2].map(|layer| number::count(layers[layer].marks.len()));
+    let mut caption =
+        format!("{rest} motions do not rock the structure, {safe} rock it, {fallen} overturn it.");
     let limit = |period_s: f64, c: f64| cases.structure.uplift_acceleration_m_s2() * period_s / c;
     if c.value > 0.0 {
+        let at_rest = |is_below: bool| {
+            let side = |mark: &&Mark| (mark.y < limit(mark.x, c.value)) == is_below;
+            let rest = layers[0].marks.iter().filter(side).count();
+            PERCENT.one(rest as f64 / marks.clone().filter(side).count() as f64)
+        };
+        let [below, above] = [true, false].map(at_rest);
+        caption += &format!(" Of those below the line {below} do not rock it, of those above {above}.");
         let line = [periods.low, periods.high].map(|x| Mark {
             low: limit(x, c.high),
             high: limit(x, c.low),
@@ -102,7 +112,7 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
         layers.push(Layer::line("Eq. 5 for the pulse alone", Ink::Text, line));
     }
     let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
-    Panel::new(&name(cases), Axis::log(PERIOD), y, layers)
+    Panel::new(&name(cases), Axis::log(PERIOD), y, layers).explained(caption)
 }
 
 fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> Panel {

@@ -59,10 +59,19 @@ fn exceeding(fits: &Fits, cases: &Cases, im3: &[f64]) -> Panel {
     for (number, (share, dash)) in SHARES.into_iter().enumerate() {
         let Some((im3, from)) = sample_quantile(im3.to_vec(), share).zip(transition) else { continue };
         let p = |im4: f64| p(planes.iter().find(|fit| fit.holds_at(im4))?, im4, im3);
-        let below = equal_ratios(1.0, from * (1.0 - 1e-9), STEPS);
+        let before = from * (1.0 - 1e-9);
+        let below = equal_ratios(1.0, before, STEPS);
         let im4 = below.chain([f64::NAN]).chain(equal_ratios(from, highest, STEPS));
         let words = format!("IM3 at its {} % quantile", number::plain(100.0 * share));
         panel.layers.push(curve(&words, Ink::Data(number), dash, im4, p));
+        if let Some((below, above)) = p(before).zip(p(from)).filter(|_| share == 0.5) {
+            let [below, above] = [below, above].map(|p| number::fixed(p.value, 3));
+            let from = number::significant(from, 3);
+            panel.caption = format!(
+                "As IM4 passes {from}, from one plane to the other, *P*_{{ex}} at the median IM3 changes from \
+                 {below} to {above}."
+            );
+        }
     }
     let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     panel.layers.extend(alone.map(|fit| {

@@ -27,7 +27,7 @@ fn out(name: &str) -> std::path::PathBuf {
     RUN.path().join("out").join(name)
 }
 
-/// Numbers of the fits, by name, suite and structure as in paper_run.csv, the run of tree 6769d62.
+/// Numbers of the fits, by name, suite and structure as in paper_run.csv, values of regression.
 fn numbers() -> BTreeMap<String, f64> {
     let mut all = BTreeMap::new();
     let mut put = |of: &str, suite: &Option<String>, structure: &str, columns: &[(&str, Option<f64>)]| {
