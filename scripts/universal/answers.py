@@ -61,7 +61,7 @@ if records == "-":
 else:
     recorded = of.read([records]).filter(structure=5).gather_every(9)
 parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded]
-written = pl.concat(parts).select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
+written = pl.concat(parts, how="diagonal_relaxed").select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
 written.write_csv(f"{folder}/calibration_cases.csv")
 answers = [calibration(surface, event, part) for part in parts for event in TERMS]
 pl.DataFrame(answers).write_csv(f"{folder}/calibration_answers.csv")
