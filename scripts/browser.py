@@ -92,5 +92,7 @@ for page in (page.resolve() for page in arguments.pages):
     for file in sorted(page.with_suffix("").glob("*.svg")):
         browser.get(file.as_uri())
         faults += [f"{file.name}: {fault}" for fault in browser.execute_script(FAULTS)]
+    # Requests of these files are not the next page's.
+    browser.get_log("performance")
 browser.quit()
 sys.exit("\n".join(faults) or None)
