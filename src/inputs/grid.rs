@@ -11,10 +11,11 @@ use super::decode::decode;
 use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
 use super::heading::Heading;
 use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
+use super::reading::{ColumnReading, Meaning, Reading};
 use super::unpack::unpack_one;
 use super::words::synonyms;
 use super::workbook;
-use crate::number::counted;
+use crate::number::{counted, rounded};
 use crate::source;
 
 /// Rows at the end of a table that show how it is written.
@@ -34,6 +35,8 @@ pub struct Grid {
     pub lines: Vec<usize>,
     rows: Vec<StringRecord>,
     notations: Vec<DecimalNotation>,
+    /// Columns that the user leaves out.
+    ignored: Vec<ColumnReading>,
 }
 
 /// A row of a file, before it is known what it is.
@@ -116,7 +119,15 @@ impl Grid {
             kept.push(cells);
         }
         let notations = numbers::notations(&evidence, separator.is_none());
-        Ok(Grid { notes, headings, has_headings: heading.is_some(), lines, rows: kept, notations })
+        Ok(Grid {
+            notes,
+            headings,
+            has_headings: heading.is_some(),
+            lines,
+            rows: kept,
+            notations,
+            ignored: Vec::new(),
+        })
     }
 
     pub fn rows(&self) -> Range<usize> {
@@ -198,6 +209,51 @@ impl Grid {
         match self.has_headings {
             true => format!("headings {}", texts.join(", ")),
             false => format!("{} without headings", counted(texts.len(), "column")),
+        }
+    }
+
+    /// Takes the columns with these headings out.
+    pub fn ignore(&mut self, headings: &[String]) {
+        let is_ignored = |at: &usize| headings.contains(&self.headings[*at].text);
+        let (ignored, kept): (Vec<usize>, Vec<usize>) = (0..self.headings.len()).partition(is_ignored);
+        if ignored.is_empty() {
+            return;
+        }
+        self.ignored = ignored.iter().map(|at| self.column_reading(*at, Meaning::Ignored)).collect();
+        self.headings = kept.iter().map(|at| self.headings[*at].clone()).collect();
+        self.notations = kept.iter().map(|at| self.notations[*at]).collect();
+        for row in &mut self.rows {
+            *row = kept.iter().map(|at| row.get(*at).unwrap_or_default()).collect();
+        }
+    }
+
+    /// How it was read, by the meaning of each column.
+    pub fn reading(&self, path: &Path, meanings: Vec<Meaning>) -> Reading {
+        let columns = meanings.into_iter().enumerate().map(|(at, of)| self.column_reading(at, of));
+        Reading {
+            file: path.display().to_string(),
+            rows: self.lines.len(),
+            columns: columns.chain(self.ignored.iter().cloned()).collect(),
+            others: self.notes.clone(),
+        }
+    }
+
+    fn column_reading(&self, at: usize, meaning: Meaning) -> ColumnReading {
+        let heading = &self.headings[at];
+        let filled: Vec<usize> = self.rows().filter(|row| self.value(*row, at).is_some()).collect();
+        let size = heading.unit.filter(|_| matches!(meaning, Meaning::Known(_))).map_or(1.0, |unit| unit.si);
+        let shown = |row: Option<&usize>| {
+            let number =
+                |row: usize| self.number(row, at).ok().map(|number| rounded(size * number).to_string());
+            row.map_or(String::new(), |row| number(*row).unwrap_or_else(|| self.cell(*row, at).to_string()))
+        };
+        ColumnReading {
+            heading: self.name_of(at),
+            unit: heading.unit.map(|unit| unit.name.to_string()),
+            filled: filled.len(),
+            first: shown(filled.first()),
+            last: shown(filled.last()),
+            meaning,
         }
     }
 

@@ -12,11 +12,11 @@ use rockfrag_core::warning::{Warning, Warnings};
 use super::hazard::peak;
 use super::objects::describes_object;
 use super::words::{is_vertical, means};
-use super::{Grid, Heading, InputError, Renames, Result};
+use super::{Grid, Heading, InputError, Reader, Result};
 
 /// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
-pub fn read(path: &Path, renames: &mut Renames) -> Result<Vec<(String, ArrayRef)>> {
-    renames.read(path).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
+pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>> {
+    reader.read(path).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
 }
 
 fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>> {
@@ -79,8 +79,8 @@ fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.
 pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64)> {
     let (own, expected) = match wanted {
-        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING renames one"),
-        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING renames one"),
+        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING reader one"),
+        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING reader one"),
     };
     let found = names.iter().filter_map(|name| {
         let (peak, unit) = peak(&Heading::new(name))?;

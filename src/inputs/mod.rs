@@ -7,7 +7,8 @@
 //! grid         text or a sheet to cells under headings, with the line of each
 //! heading      names and units
 //! numbers      which signs are decimal and which stand between thousands, settled for a whole table
-//! rename       headings that the user names
+//! reader       headings that the user names or leaves out
+//! reading      how a file was read
 //! hazard       the hazard of a site
 //! objects      lists of objects
 //! intensities  tables of motions by their peaks
@@ -28,8 +29,9 @@ mod heading;
 pub mod intensities;
 mod numbers;
 pub mod objects;
+mod reader;
+mod reading;
 pub mod records;
-mod rename;
 mod unpack;
 pub mod words;
 mod workbook;
@@ -40,5 +42,6 @@ pub use error::{InputError, Result};
 pub use grid::Grid;
 pub use heading::Heading;
 pub use numbers::plain_number;
-pub use rename::{Rename, Renames};
+pub use reader::{Reader, Rename};
+pub use reading::{ColumnReading, Meaning, Reading};
 pub use unpack::{Member, unpack};

@@ -11,7 +11,7 @@ use strum::VariantArray;
 
 use super::floors::{self, Building, Storey};
 use super::words::{is_one_of, joined, means, synonyms};
-use super::{Grid, Heading, InputError, Renames, Result};
+use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -54,8 +54,14 @@ struct List<'a> {
 }
 
 /// Reads a list: the objects of its rows, and what of it is not used.
-pub fn read(path: &Path, renames: &mut Renames, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
-    renames.read(path).and_then(|grid| in_rows(&grid, &[], defaults)).map_err(|error| error.in_file(path))
+pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
+    let list = |reader: &mut Reader| {
+        let grid = reader.read(path)?;
+        let list = List::new(&grid, defaults)?;
+        reader.tell(path, &grid, list.meanings());
+        Ok((list.objects(), list.doubts()))
+    };
+    list(reader).map_err(|error: InputError| error.in_file(path))
 }
 
 /// The objects of the rows of a grid, and what of it is not used but for these other columns.
@@ -230,11 +236,36 @@ impl List<'_> {
                 given => given,
             };
             let refused = self.held(row).or(object.as_ref().err().cloned().map(ObjectError::Implausible));
+            let labels = self.labels(row);
             let is_unique = uses[name.as_str()] == 1;
             let name = if is_unique { name.clone() } else { format!("{name} (line {line})") };
-            Object { name, refused, ..object.unwrap_or_default() }
+            Object { name, refused, labels, ..object.unwrap_or_default() }
         });
         objects.collect()
+    }
+
+    /// What each column says.
+    fn meanings(&self) -> Vec<Meaning> {
+        let meaning = |(at, role): (usize, &Role)| match role {
+            Role::Known(field) => Meaning::Known(field.to_string()),
+            Role::Unused if self.is_text(at) => Meaning::Kept,
+            Role::Unused | Role::Unclear => Meaning::NotUnderstood,
+            other => Meaning::Known(format!("{other:?}").to_lowercase()),
+        };
+        self.columns.iter().enumerate().map(meaning).collect()
+    }
+
+    /// Whether the cells of a column are texts.
+    fn is_text(&self, at: usize) -> bool {
+        let mut values = self.grid.rows().filter(|row| self.grid.value(*row, at).is_some());
+        values.any(|row| self.grid.number(row, at).is_err())
+    }
+
+    /// What else a row says, in words of its own.
+    fn labels(&self, row: usize) -> Vec<(String, String)> {
+        let kept =
+            (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Unused && self.is_text(*at));
+        kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
     }
 
     fn name_of(&self, row: usize) -> String {

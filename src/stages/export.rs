@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::model_args::ModelArgs;
 use super::shared::objects::{StructureArgs, named, on_ground};
 use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metadata, parameters};
-use crate::inputs::Renames;
+use crate::inputs::Reader;
 use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -130,7 +130,7 @@ impl Stage for Export {
 
 impl Export {
     fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
-        let (objects, unused) = self.structures.objects(&Place::default(), &mut Renames::new(&[]))?;
+        let (objects, unused) = self.structures.objects(&Place::default(), &mut Reader::default())?;
         objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;
         Ok((objects, unused))
     }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use rockfrag::inputs::{InputError, Rename, Renames, hazard};
+use rockfrag::inputs::{InputError, Reader, Rename, hazard};
 use rockfrag_core::hazard::{Hazard, PeakHazard};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
@@ -23,7 +23,7 @@ fn read(files: &[&[u8]], columns: &str) -> Result<(Hazard, Warnings), InputError
     };
     let paths: Vec<PathBuf> = files.iter().enumerate().map(write).collect();
     let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
-    let mut renames = Renames::new(&renames);
+    let mut renames = Reader::new(&renames, &[]);
     let read = hazard::read(&paths, &mut renames, None)?;
     renames.expect_used()?;
     Ok(read)

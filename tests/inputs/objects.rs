@@ -1,7 +1,7 @@
 //! Lists of objects in the forms that people keep them in.
 
 use rockfrag::inputs::objects::{self, ListDefaults};
-use rockfrag::inputs::{InputError, Rename, Renames};
+use rockfrag::inputs::{InputError, Reader, Rename};
 use rockfrag_core::object::{Base, Object, Wall, structure_warnings};
 use rockfrag_core::warning::Warning;
 
@@ -24,7 +24,7 @@ fn read(list: &str, columns: &str, ground_floor: Option<u32>) -> Result<Vec<Obje
     let path = folder.path().join("list.csv");
     std::fs::write(&path, list).unwrap();
     let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
-    let mut renames = Renames::new(&renames);
+    let mut renames = Reader::new(&renames, &[]);
     let defaults = ListDefaults { ground_floor, ..ListDefaults::default() };
     let (objects, _) = objects::read(&path, &mut renames, &defaults)?;
     renames.expect_used()?;
@@ -212,7 +212,7 @@ fn columns_that_are_not_used_are_all_named_once() {
     let path = folder.path().join("list.csv");
     let warned = |list: &str| {
         std::fs::write(&path, list).unwrap();
-        let read = objects::read(&path, &mut Renames::new(&[]), &ListDefaults::default());
+        let read = objects::read(&path, &mut Reader::default(), &ListDefaults::default());
         read.map(|(objects, warnings)| (objects, warnings.lines())).unwrap()
     };
     let (_, lines) = warned("No.,name,Room,Mass (kg),width,height,Value,Remarks\n1,a,R1,80,0.5,2,100,old\n");

@@ -109,6 +109,9 @@ pub struct Object {
     /// As the list of the object has it: `floor 3 of 5`.
     #[serde(skip)]
     pub floor: Option<String>,
+    /// What else the list of the object says of it, as it is written there: headings and cells.
+    #[serde(skip)]
+    pub labels: Vec<(String, String)>,
     /// Why there is no answer, whatever its shape.
     #[serde(skip)]
     pub refused: Option<ObjectError>,

@@ -17,19 +17,19 @@ pub use self::columns::peak;
 use self::columns::{Frequency, HazardColumn, Imt, Statistic, noted_statistic};
 use super::intensities::{MotionTable, motions};
 use super::words::means;
-use super::{Grid, Heading, InputError, Renames, Result};
+use super::{Grid, Heading, InputError, Reader, Result};
 use crate::number::period;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
 /// ground-motion fields stand for. Also returns warnings about columns that are not used.
 pub fn read(
     paths: &[PathBuf],
-    renames: &mut Renames,
+    reader: &mut Reader,
     effective_years: Option<f64>,
 ) -> Result<(Hazard, Warnings)> {
     let mut found = Found::default();
     for path in paths {
-        found.add(path, renames, effective_years).map_err(|error| error.in_file(path))?;
+        found.add(path, reader, effective_years).map_err(|error| error.in_file(path))?;
     }
     let hazard = match found.joint {
         Some(_) if paths.len() > 1 => {
@@ -139,8 +139,8 @@ struct Found {
 
 impl Found {
     /// Adds what is in a file, by what its headings say.
-    fn add(&mut self, path: &Path, renames: &mut Renames, effective_years: Option<f64>) -> Result<()> {
-        let mut grid = renames.read(path)?;
+    fn add(&mut self, path: &Path, reader: &mut Reader, effective_years: Option<f64>) -> Result<()> {
+        let mut grid = reader.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
             ["gmv_", "poe-"].map(|start| grid.headings.iter().any(|heading| heading.text.starts_with(start)));

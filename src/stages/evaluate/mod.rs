@@ -25,7 +25,7 @@ use super::shared::objects::{StructureArgs, named};
 use crate::answer::{self, Answer, AnswerTable, AtSite, Question, assess, variants, variants_beside};
 use crate::chart::{DPI, png, svg};
 use crate::document::{Document, workbook};
-use crate::inputs::{Rename, Renames, hazard};
+use crate::inputs::{Reader, Rename, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
@@ -73,6 +73,9 @@ pub struct Evaluate {
     /// Column names for headings of --hazard, --structures or --in
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Rename>,
+    /// Headings of columns of these files to leave out
+    #[arg(long, value_name = "HEADING,...", value_delimiter = ',')]
+    ignore: Vec<String>,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -118,7 +121,7 @@ const RULES: [Rule; 8] = [
     Rule::Either(&["over"], &["in", "pga", "pgv", "target", "variants"]),
     Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
     Rule::Needs(&["effective-years", "years", "target", "variants"], &["hazard"]),
-    Rule::Needs(&["columns"], &["hazard", "structures", "in"]),
+    Rule::Needs(&["columns", "ignore"], &["hazard", "structures", "in"]),
     Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
 ];
 
@@ -168,15 +171,15 @@ impl Stage for Evaluate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (models, mut renames) = (self.model.read()?, Renames::new(&self.columns));
+        let (models, mut reader) = (self.model.read()?, Reader::new(&self.columns, &self.ignore));
         if let Some(path) = &self.input {
-            let (rows, text) = table::evaluate(self, path, &mut renames, &models, context)?;
-            renames.expect_used()?;
+            let (rows, text) = table::evaluate(self, path, &mut reader, &models, context)?;
+            reader.expect_used()?;
             self.write(&rows, &text, context, &Document::default())?;
             return self.in_format(&rows, text);
         }
-        let question = self.question(&mut renames, &models, context)?;
-        let objects = self.objects(renames, &models, context)?;
+        let question = self.question(&mut reader, &models, context)?;
+        let objects = self.objects(&mut reader, &models, context)?;
         let models_of = |object: &Object| models.rocking_object(object);
         let mut rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         if let Question::Curve { general, site: None } = &question
@@ -233,12 +236,7 @@ impl Evaluate {
     }
 
     /// What is asked of the objects.
-    fn question(
-        &self,
-        renames: &mut Renames,
-        models: &Models,
-        context: &Context,
-    ) -> anyhow::Result<Question> {
+    fn question(&self, reader: &mut Reader, models: &Models, context: &Context) -> anyhow::Result<Question> {
         if self.pga.or(self.pgv).is_some() {
             let motion = self.motion()?;
             let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
@@ -246,7 +244,7 @@ impl Evaluate {
             return Ok(Question::Motion(motion));
         }
         models.expect_ground()?;
-        let site = if self.hazard.is_empty() { None } else { Some(self.site(renames, context)?) };
+        let site = if self.hazard.is_empty() { None } else { Some(self.site(reader, context)?) };
         let over = self.over.unwrap_or(Peak::Pgv);
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
@@ -262,8 +260,8 @@ impl Evaluate {
     }
 
     /// Reads the hazard and what rates over it need.
-    fn site(&self, renames: &mut Renames, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&self.hazard, renames, self.effective_years)?;
+    fn site(&self, reader: &mut Reader, context: &Context) -> anyhow::Result<Site> {
+        let (mut hazard, unused) = hazard::read(&self.hazard, reader, self.effective_years)?;
         context.warn(unused);
         match &mut hazard {
             Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
@@ -280,17 +278,17 @@ impl Evaluate {
     /// Returns the given structures, or all fitted ones.
     fn objects(
         &self,
-        mut renames: Renames,
+        reader: &mut Reader,
         models: &Models,
         context: &Context,
     ) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
-            renames.expect_used()?;
+            reader.expect_used()?;
             let object = |of: &Structure| Object::with_parameters(of, Restitution::Fitted(of.eta));
             return Ok(models.structures()?.iter().map(|of| object(of).at(&self.place)).collect());
         }
-        let (objects, unused) = self.structures.objects(&self.place, &mut renames)?;
-        renames.expect_used()?;
+        let (objects, unused) = self.structures.objects(&self.place, reader)?;
+        reader.expect_used()?;
         context.warn(unused);
         let are_all = objects.iter().all(Object::is_implausible);
         match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {

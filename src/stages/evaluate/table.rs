@@ -16,7 +16,7 @@ use rockfrag_core::warning::Warning;
 
 use super::Evaluate;
 use crate::answer::{TreeColumns, UncertaintyColumns};
-use crate::inputs::Renames;
+use crate::inputs::Reader;
 use crate::inputs::intensities;
 use crate::number::counted;
 use crate::pipeline::UsageError;
@@ -32,21 +32,21 @@ use crate::table::rows;
 pub fn evaluate(
     call: &Evaluate,
     path: &Path,
-    renames: &mut Renames,
+    reader: &mut Reader,
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
     let (structures, place) = (&call.structures, call.place);
     let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
-        true => read_parquet(path, renames)?,
+        true => read_parquet(path, reader)?,
         false => {
-            let columns = intensities::read(path, renames)?.into_iter();
+            let columns = intensities::read(path, reader)?.into_iter();
             let columns = columns.map(|(name, column)| (name, column, true));
             let rows = RecordBatch::try_from_iter_with_nullable(columns)?;
             vec![Batch { path: path.into(), first_row: 0, rows }]
         }
     };
-    let given = if structures.is_given() { structures.objects(&place, renames)?.0 } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(&place, reader)?.0 } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
@@ -155,13 +155,13 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.
-fn read_parquet(path: &Path, renames: &mut Renames) -> anyhow::Result<Vec<Batch>> {
+fn read_parquet(path: &Path, reader: &mut Reader) -> anyhow::Result<Vec<Batch>> {
     let table = ParquetTable::open(path)?;
     let mut renamed = Vec::new();
     for batch in table.batches(|column| column != "acceleration_m_s2") {
         let batch = batch?;
         let schema = batch.rows.schema();
-        let names: Vec<String> = schema.fields().iter().map(|field| renames.name(field.name())).collect();
+        let names: Vec<String> = schema.fields().iter().map(|field| reader.name(field.name())).collect();
         let columns = names.into_iter().zip(batch.rows.columns().iter().cloned());
         let columns = columns.map(|(name, column)| (name, column, true));
         renamed.push(Batch { rows: RecordBatch::try_from_iter_with_nullable(columns)?, ..batch });

@@ -14,7 +14,7 @@ use rockfrag_core::warning::{UNNAMED, Warning, Warnings};
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
-use crate::inputs::Renames;
+use crate::inputs::Reader;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::pipeline::UsageError;
 use crate::pipeline::options::{Rule, number};
@@ -95,7 +95,7 @@ impl StructureArgs {
     /// Finds the structures of all objects, one for each of its directions, the weaker first, and warnings
     /// about them and their list: of a list without its rows that do not rock on the ground.
     pub fn resolve(&self) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
-        let (objects, mut warnings) = self.objects(&Place::default(), &mut Renames::new(&[]))?;
+        let (objects, mut warnings) = self.objects(&Place::default(), &mut Reader::default())?;
         let mut resolved = Vec::new();
         for object in &objects {
             let name = &object.name;
@@ -121,12 +121,12 @@ impl StructureArgs {
 
     /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
     /// nothing of them.
-    pub fn objects(&self, place: &Place, renames: &mut Renames) -> anyhow::Result<(Vec<Object>, Warnings)> {
+    pub fn objects(&self, place: &Place, reader: &mut Reader) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let is_paper = self.structures.as_deref() == Some(Path::new(PAPER));
         let (mut all, unused) = match &self.structures {
             Some(list) if !is_paper => {
                 let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };
-                objects::read(list, renames, &defaults)?
+                objects::read(list, reader, &defaults)?
             }
             _ => (self.structure.clone(), Warnings::default()),
         };

@@ -1,4 +1,5 @@
-//! Headings that the user names: `--columns pga_g=PGA`.
+//! What reads the files of a call: the user names headings (`--columns pga_g=PGA`) or leaves columns out
+//! (`--ignore Remarks`).
 
 use std::path::Path;
 use std::str::FromStr;
@@ -6,6 +7,7 @@ use std::str::FromStr;
 use super::error::{InputError, Result};
 use super::grid::Grid;
 use super::heading::Heading;
+use super::reading::{Meaning, Reading};
 
 /// A column, and its heading in a file.
 #[derive(Debug, Clone, PartialEq)]
@@ -35,22 +37,28 @@ impl FromStr for Rename {
     }
 }
 
-/// Columns that the user names; each must be in one of the files of a call.
-#[derive(Debug)]
-pub struct Renames<'a> {
-    all: &'a [Rename],
+/// Reads the files of a call, with the headings that the user names or leaves out.
+#[derive(Debug, Default)]
+pub struct Reader<'a> {
+    renames: &'a [Rename],
+    ignored: &'a [String],
     /// Headings of files that were seen.
     seen: Vec<String>,
+    /// How each file was read.
+    pub readings: Vec<Reading>,
 }
 
-impl<'a> Renames<'a> {
-    pub fn new(all: &'a [Rename]) -> Renames<'a> {
-        Renames { all, seen: Vec::new() }
+impl<'a> Reader<'a> {
+    pub fn new(renames: &'a [Rename], ignored: &'a [String]) -> Reader<'a> {
+        Reader { renames, ignored, ..Reader::default() }
     }
 
-    /// Reads a table and renames its columns. A unit or a percent sign of the heading stays.
+    /// Reads a table and renames its columns; those that are ignored go. A unit or a percent sign of the
+    /// heading stays.
     pub fn read(&mut self, path: &Path) -> Result<Grid> {
         let mut grid = Grid::read(path)?;
+        self.seen.extend(grid.headings.iter().map(|heading| heading.text.clone()));
+        grid.ignore(self.ignored);
         for heading in &mut grid.headings {
             let Some(column) = self.renamed(&heading.text) else { continue };
             let wanted = Heading::new(column);
@@ -63,20 +71,26 @@ impl<'a> Renames<'a> {
         Ok(grid)
     }
 
+    /// Keeps how a table was read: the meaning of each of its columns.
+    pub fn tell(&mut self, path: &Path, grid: &Grid, meanings: Vec<Meaning>) {
+        self.readings.push(grid.reading(path, meanings));
+    }
+
     /// The name of a column of a table of others, as it is to be called.
     pub fn name(&mut self, name: &str) -> String {
+        self.seen.push(name.to_string());
         self.renamed(name).unwrap_or(name).to_string()
     }
 
-    fn renamed(&mut self, heading: &str) -> Option<&'a str> {
-        self.seen.push(heading.to_string());
-        self.all.iter().find(|rename| rename.heading == heading).map(|rename| rename.column.as_str())
+    fn renamed(&self, heading: &str) -> Option<&'a str> {
+        self.renames.iter().find(|rename| rename.heading == heading).map(|rename| rename.column.as_str())
     }
 
     /// Refuses a heading that no file has.
-    pub fn expect_used(self) -> Result<()> {
-        let mut unused = self.all.iter().filter(|rename| !self.seen.contains(&rename.heading));
-        unused.next().map_or(Ok(()), |Rename { heading, .. }| {
+    pub fn expect_used(&self) -> Result<()> {
+        let headings = self.renames.iter().map(|rename| &rename.heading).chain(self.ignored);
+        let mut unused = headings.filter(|heading| !self.seen.contains(heading));
+        unused.next().map_or(Ok(()), |heading| {
             Err(InputError::Renamed { heading: heading.clone(), seen: self.seen.join(", ") })
         })
     }
