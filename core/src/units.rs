@@ -16,6 +16,7 @@ pub enum Quantity {
     Time,
     Angle,
     AngularFrequency,
+    Mass,
     /// Counts or volts of an uncalibrated instrument.
     Counts,
 }
@@ -24,7 +25,7 @@ pub enum Quantity {
 pub struct Unit {
     pub name: &'static str,
     pub quantity: Quantity,
-    /// Value in m/s2, m/s, m, s, rad or rad/s.
+    /// Value in m/s2, m/s, m, s, rad, rad/s or kg.
     pub si: f64,
 }
 
@@ -34,11 +35,11 @@ impl serde::Serialize for Unit {
     }
 }
 
-use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Time, Velocity};
+use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Mass, Time, Velocity};
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
-const UNITS: [(&str, Quantity, f64, &[&str]); 35] = [
+const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
     ("g", Acceleration, G_M_S2, &["gs"]),
     ("%g", Acceleration, 0.01 * G_M_S2, &["%/g"]),
     ("g/10", Acceleration, 0.1 * G_M_S2, &[]),
@@ -58,11 +59,11 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 35] = [
     ("in/s", Velocity, 0.0254, &[]),
     ("ft/s", Velocity, 0.3048, &[]),
     ("m", Length, 1.0, &["metre", "metres", "meter", "meters"]),
-    ("cm", Length, 0.01, &[]),
-    ("mm", Length, 0.001, &[]),
+    ("cm", Length, 0.01, &["centimetre", "centimetres", "centimeter", "centimeters"]),
+    ("mm", Length, 0.001, &["millimetre", "millimetres", "millimeter", "millimeters"]),
     ("km", Length, 1000.0, &[]),
-    ("in", Length, 0.0254, &["inch", "inches"]),
-    ("ft", Length, 0.3048, &["foot", "feet"]),
+    ("in", Length, 0.0254, &["inch", "inches", "zoll", "\"", "''"]),
+    ("ft", Length, 0.3048, &["foot", "feet", "'"]),
     ("s", Time, 1.0, &[]),
     ("ms", Time, 1e-3, &["millis"]),
     ("us", Time, 1e-6, &["\u{3bc}s"]),
@@ -72,6 +73,9 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 35] = [
     ("deg", Angle, std::f64::consts::PI / 180.0, &["degrees", "\u{b0}"]),
     ("rad/s", AngularFrequency, 1.0, &[]),
     ("Hz", AngularFrequency, std::f64::consts::TAU, &["hz"]),
+    ("kg", Mass, 1.0, &["kgs", "kilogram", "kilograms"]),
+    ("t", Mass, 1000.0, &["ton", "tons", "tonne", "tonnes"]),
+    ("lb", Mass, 0.453_592_37, &["lbs", "pounds"]),
     ("counts", Counts, 1.0, &["count"]),
     ("volt", Counts, 1.0, &["volts", "mv"]),
 ];
@@ -85,7 +89,10 @@ impl Unit {
         // The Greek letter for the micro sign, and no sign of an exponent.
         let text = text.replace('\u{b5}', "\u{3bc}").replace('\u{b9}', "1").replace('\u{207b}', "");
         let text = text.replace("seconds", "s").replace("second", "s").replace("sec", "s");
-        let plain: String = text.chars().filter(|c| !matches!(c, '-' | '^' | '*' | '\'')).map(per).collect();
+        // Alone, quotation marks are units.
+        let is_left_out =
+            |c: &char| matches!(c, '-' | '^' | '*') || *c == '\'' && text.contains(char::is_alphabetic);
+        let plain: String = text.chars().filter(|c| !is_left_out(c)).map(per).collect();
         let (name, quantity, si, _) =
             UNITS.iter().find(|(name, .., others)| *name == plain || others.contains(&plain.as_str()))?;
         Some(Unit { name, quantity: *quantity, si: *si })

@@ -42,6 +42,11 @@ pub enum InputError {
          --ground-floor 0 if 1 is the floor above it"
     )]
     GroundFloor { heading: String, lowest: u32 },
+    #[error(
+        "column '{heading}': does it count objects or name them? --columns count={heading} or name={heading}, or \
+         --ignore {heading}"
+    )]
+    Number { heading: String },
     #[error("no heading '{heading}' in any file; found {seen}")]
     Renamed { heading: String, seen: String },
     #[error(transparent)]

@@ -2,7 +2,7 @@
 
 use rockfrag_core::object::Place;
 
-use super::words::{is_one_of, joined, means};
+use super::words::{is_one_of, joined, means, synonyms};
 
 const STOREY_M: f64 = 3.5;
 /// Standard deviation of ln(period) of a building of a known type.
@@ -21,7 +21,7 @@ pub enum Storey {
 }
 
 impl Storey {
-    /// Reads a floor as `3`, `3rd floor`, `G`, `EG`, `2. OG`, `B1`, `-1`, `roof`; none where anything else
+    /// Reads a floor as `3`, `3rd floor`, `third floor`, `G`, `EG`, `2. OG`, `B1`, `-1`, `roof`; none where anything else
     /// stands beside: `2-3`, `1.5`.
     pub fn parse(cell: &str) -> Option<Storey> {
         const BESIDE: &str = " .-_#():";
@@ -32,23 +32,23 @@ impl Storey {
         if let Ok(number) = cell.trim().parse::<f64>() {
             return Some(number).filter(|number| number.fract() == 0.0).and_then(Storey::of_number);
         }
-        let digits = cell.split(|sign: char| !sign.is_ascii_digit()).filter(|digits| !digits.is_empty());
-        let digits: Vec<&str> = digits.collect();
         let text = joined(&cell.replace(|sign: char| sign.is_ascii_digit(), "-"));
-        let words: Vec<&str> = text.split_terminator('-').collect();
+        let digits = cell.split(|sign: char| !sign.is_ascii_digit()).filter_map(|digits| digits.parse().ok());
+        let (ordinals, words): (Vec<&str>, Vec<&str>) =
+            text.split_terminator('-').partition(|word| ordinal(word).is_some());
+        let numbers: Vec<f64> = digits.chain(ordinals.into_iter().filter_map(ordinal)).collect();
         let are_all = |meanings: &[&str]| {
             words.iter().all(|word| meanings.iter().any(|meaning| is_one_of(word, meaning)))
         };
-        if digits.len() > 1 || !cell.chars().all(|sign| sign.is_alphanumeric() || BESIDE.contains(sign)) {
+        if numbers.len() > 1 || !cell.chars().all(|sign| sign.is_alphanumeric() || BESIDE.contains(sign)) {
             return None;
         }
         if are_all(&["basement", "of-floors"]) && words.iter().any(|word| is_one_of(word, "basement")) {
             return Some(Storey::Basement);
         }
-        let (before, _) = cell.split_once(digits.first()?)?;
         // L-3 may be below the ground.
-        let number = digits[0].parse().ok().filter(|_| !before.trim_end().ends_with('-'))?;
-        match Storey::of_number(number)? {
+        let is_below = cell.split(|sign: char| sign.is_ascii_digit()).next()?.trim_end().ends_with('-');
+        match Storey::of_number(*numbers.first().filter(|_| !is_below)?)? {
             Storey::Number(number) if !words.is_empty() && are_all(&["above"]) => Some(Storey::Above(number)),
             storey => Some(storey).filter(|_| are_all(&["of-floors"])),
         }
@@ -72,6 +72,12 @@ impl Storey {
             Storey::Roof => None,
         }
     }
+}
+
+/// The number of an ordinal, by the beginning of its word: third, terzo, dritter.
+fn ordinal(word: &str) -> Option<f64> {
+    let of_number = |words: &str| words.split('|').any(|start| word.starts_with(start));
+    synonyms("ordinal").position(of_number).map(|at| (at + 1) as f64)
 }
 
 /// The number of the ground floor by floors of a list: 0 where one is called so; none where nothing tells,

@@ -1,33 +1,35 @@
 //! A table: cells under headings, as people and agencies write it.
 
+use std::collections::HashSet;
 use std::ops::Range;
 use std::path::Path;
 
-use csv::{ReaderBuilder, StringRecord, Trim};
+use csv::StringRecord;
 use rockfrag_core::plausibility::range_of_column;
-use rockfrag_core::units::Unit;
 
 use super::decode::decode;
 use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
-use super::heading::Heading;
+use super::heading::{Heading, number_with_unit};
+use super::layout::{Layout, RawRow, RowRole, layout};
 use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
 use super::reading::{ColumnReading, Meaning, Reading};
+use super::separated;
 use super::unpack::unpack_one;
-use super::words::synonyms;
-use super::workbook;
+use super::words::{means, synonyms};
+use super::workbook::{self, Sheet};
 use crate::number::{counted, rounded};
 use crate::source;
 
-/// Rows at the end of a table that show how it is written.
-const SHOWN: usize = 400;
 /// Numbers below this stand for what is not known.
 const UNKNOWN: f64 = -99.0;
 
 /// Rows of cells under headings.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
-    /// Comments, and lines above the heading.
+    /// Comments, and lines above, below and between the rows.
     pub notes: Vec<String>,
+    /// Other lines that are no rows, and what they were taken for.
+    others: Vec<String>,
     /// One for each column, without a text where there is no heading line.
     pub headings: Vec<Heading>,
     pub has_headings: bool,
@@ -37,13 +39,19 @@ pub struct Grid {
     notations: Vec<DecimalNotation>,
     /// Columns that the user leaves out.
     ignored: Vec<ColumnReading>,
+    /// Lines and columns of cells that a merged one repeats.
+    repeated: HashSet<(usize, usize)>,
 }
 
-/// A row of a file, before it is known what it is.
-struct RawRow {
-    line: usize,
-    cells: StringRecord,
-    is_comment: bool,
+/// What a table is read from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Source {
+    /// Text between signs, or between blanks.
+    Signs,
+    Blanks,
+    /// A workbook that tells which cells are merged and percent, or one that does not.
+    Xlsx,
+    Workbook,
 }
 
 impl Grid {
@@ -59,75 +67,92 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            let sheet = workbook::cells(&bytes, sheet)?;
-            let first = sheet.start().map_or(1, |(row, _)| row as usize + 1);
-            return Grid::new(rows_of_cells(first, sheet.rows()), None);
+            let Sheet { first_line, rows, repeated, source } = workbook::read(&bytes, sheet)?;
+            let grid = Grid::new(rows_of_cells(first_line, rows.rows()), source)?;
+            return Ok(Grid { repeated, ..grid });
         }
-        let text = decode(&bytes)?;
-        let lines: Vec<&str> =
-            text.lines().map(|line| line.trim_matches([' ', '\x0c', '\x1a', '\0'])).collect();
-        let separator = separator(&lines);
-        Grid::new(rows_of_text(&lines, separator)?, Some(separator))
+        let (rows, source) = separated::rows(&decode(&bytes)?)?;
+        Grid::new(rows, source)
     }
 
     /// Takes a table whose cells have points for decimals, as those of a workbook.
     pub fn from_cells(rows: &[Vec<String>]) -> Result<Grid> {
         expect_few_cells(rows.iter().map(Vec::len).sum())?;
-        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), None)
+        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), Source::Xlsx)
     }
 
-    /// Parts headings, units and comments from rows. No `separator` stands between cells of a workbook.
-    fn new(rows: Vec<RawRow>, separator: Option<char>) -> Result<Grid> {
-        let is_number_column = number_columns(&rows);
-        let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
-        let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
-        let heading = heading_row(above, &is_number_column, separator);
-        let mut headings: Vec<Heading> = match heading {
-            Some(at) => rows[at].cells.iter().map(|cell| Heading::new(uncommented(cell))).collect(),
-            None => vec![Heading::new(""); is_number_column.len()],
-        };
-        let mut end = heading.map_or(first.unwrap_or(0), |at| at + 1);
-        while let Some(units) = rows.get(end).filter(|row| heading.is_some() && is_units(row)) {
-            headings = with_units(&headings, units)?;
-            end += 1;
-        }
-        let columns = headings.len();
-        // An object may be called #2.
-        let are_named = separator != Some(' ') && columns > 1 && is_number_column.first() == Some(&false);
-        // Between blanks, a comment above the numbers may have some too: dt 0.01.
-        let start = first.filter(|_| separator == Some(' ')).unwrap_or(end);
-        let is_row = |at: usize, cells: &StringRecord| {
-            are_named && cells.len() == columns || at >= start && has_numbers_behind(cells, &is_number_column)
-        };
-        let mut evidence: Vec<Evidence> = headings.iter().map(Evidence::under).collect();
-        let (mut notes, mut lines, mut kept) = (Vec::new(), Vec::new(), Vec::new());
-        for (at, RawRow { line, cells, is_comment }) in rows.into_iter().enumerate() {
-            if at < end || is_ruler(&cells) || is_comment && !is_row(at, &cells) {
-                if heading != Some(at) {
-                    let filled: Vec<&str> = cells.iter().filter(|cell| !cell.is_empty()).collect();
-                    notes.push(filled.join(if separator == Some(' ') { " " } else { ", " }));
+    fn new(rows: Vec<RawRow>, source: Source) -> Result<Grid> {
+        let Layout { headings, has_headings, roles } = layout(&rows, source)?;
+        let width = headings.len();
+        let parts: Vec<Vec<Heading>> =
+            headings.into_iter().map(|heading| heading.parted().unwrap_or(vec![heading])).collect();
+        let has_sections = roles.contains(&RowRole::Section);
+        let (mut grid, mut section) = (Grid::default(), String::new());
+        for (row, role) in rows.into_iter().zip(roles) {
+            match role {
+                RowRole::Head => {}
+                RowRole::Remark => grid.notes.push(row.text(source)),
+                RowRole::Section => {
+                    section = row.text(source);
+                    grid.others.push(format!("line {}: section '{section}'", row.line));
                 }
-                continue;
+                RowRole::Data => {
+                    if row.cells.iter().skip(width).any(|cell| !cell.is_empty()) {
+                        let (line, found) = (row.line, row.cells.len());
+                        return Err(InputError::Cells { line, found, expected: width });
+                    }
+                    let mut cells = parted(&row.cells, &parts);
+                    if has_sections {
+                        cells.resize(parts.iter().map(Vec::len).sum(), "");
+                        cells.push(&section);
+                    }
+                    grid.lines.push(row.line);
+                    grid.rows.push(cells.into());
+                }
             }
-            if cells.iter().skip(columns).any(|cell| !cell.is_empty()) {
-                return Err(InputError::Cells { line, found: cells.len(), expected: columns });
-            }
-            let cells = cells.iter().zip(&headings).map(|(cell, heading)| heading.without_unit(cell));
-            let cells: StringRecord = cells.collect();
-            evidence.iter_mut().zip(&cells).for_each(|(column, cell)| column.add(cell));
-            lines.push(line);
-            kept.push(cells);
         }
-        let notations = numbers::notations(&evidence, separator.is_none());
-        Ok(Grid {
-            notes,
-            headings,
-            has_headings: heading.is_some(),
-            lines,
-            rows: kept,
-            notations,
-            ignored: Vec::new(),
-        })
+        grid.has_headings = has_headings;
+        grid.headings =
+            parts.into_iter().flatten().chain(has_sections.then(|| Heading::new("Section"))).collect();
+        grid.take_units();
+        let mut evidence: Vec<Evidence> = grid.headings.iter().map(Evidence::under).collect();
+        for row in &grid.rows {
+            evidence.iter_mut().zip(row).for_each(|(column, cell)| column.add(cell));
+        }
+        grid.notations = numbers::notations(&evidence, source);
+        Ok(grid)
+    }
+
+    /// Takes the units behind numbers off: that of the heading, or that of all numbers of a column.
+    fn take_units(&mut self) {
+        for (at, heading) in self.headings.iter_mut().enumerate() {
+            let mut cells = self.rows.iter().filter_map(|row| row.get(at).filter(|cell| !is_missing(cell)));
+            let first = cells.next().and_then(number_with_unit).map(|(_, unit)| unit);
+            if heading.unit.is_none() && !heading.is_scaled && first.is_some() {
+                let is_same = |cell: &str| {
+                    number_with_unit(cell)
+                        .is_some_and(|(number, unit)| Some(unit) == first && is_number(number))
+                };
+                heading.unit = first.filter(|_| cells.all(is_same));
+            }
+        }
+        if self.headings.iter().all(|heading| heading.unit.is_none()) {
+            return;
+        }
+        for row in &mut self.rows {
+            let cells = row.iter().zip(&self.headings).map(|(cell, heading)| heading.without_unit(cell));
+            *row = cells.collect();
+        }
+    }
+
+    /// Leaves rows out, and tells what they were taken for.
+    pub fn leave_out(&mut self, what: &str, is_out: impl Fn(&Grid, usize) -> bool) {
+        let out: Vec<usize> = self.rows().filter(|row| is_out(self, *row)).collect();
+        self.others.extend(out.iter().map(|row| format!("line {}: {what}", self.lines[*row])));
+        let is_kept = |row: &usize| out.binary_search(row).is_err();
+        let kept: Vec<usize> = self.rows().filter(is_kept).collect();
+        self.rows = kept.iter().map(|row| self.rows[*row].clone()).collect();
+        self.lines = kept.iter().map(|row| self.lines[*row]).collect();
     }
 
     pub fn rows(&self) -> Range<usize> {
@@ -147,6 +172,19 @@ impl Grid {
     /// What a cell says; none where there is nothing to say. An error of a workbook says something.
     pub fn value(&self, row: usize, column: usize) -> Option<&str> {
         Some(self.cell(row, column)).filter(|cell| cell.starts_with('#') || !is_missing(cell))
+    }
+
+    /// Whether a merged cell repeats what it says.
+    pub fn is_repeated(&self, row: usize, column: usize) -> bool {
+        self.repeated.contains(&(self.lines[row], column))
+    }
+
+    /// Whether the cells of a column are texts: one is no number and not yes or no, or none says anything.
+    pub fn is_text(&self, column: usize) -> bool {
+        let mut values = self.rows().filter(|row| self.value(*row, column).is_some()).peekable();
+        let is_answer = |cell| means(cell, "yes") || means(cell, "free");
+        values.peek().is_none()
+            || values.any(|row| self.number(row, column).is_err() && !is_answer(self.cell(row, column)))
     }
 
     pub fn is_percent(&self, row: usize, column: usize) -> bool {
@@ -234,7 +272,8 @@ impl Grid {
             file: path.display().to_string(),
             rows: self.lines.len(),
             columns: columns.chain(self.ignored.iter().cloned()).collect(),
-            others: self.notes.clone(),
+            others: [self.others.clone(), self.notes.iter().map(|note| format!("remark: {note}")).collect()]
+                .concat(),
         }
     }
 
@@ -265,168 +304,21 @@ impl Grid {
     }
 }
 
-fn rows_of_text(lines: &[&str], separator: char) -> Result<Vec<RawRow>> {
-    let joined = join_lines(lines, separator)?;
-    expect_few_cells(joined.matches([separator, '\n']).count())?;
-    let mut reader = ReaderBuilder::new();
-    reader.has_headers(false).flexible(true).trim(Trim::All).delimiter(separator as u8);
-    let records = reader.from_reader(joined.as_bytes()).into_records().map_while(Result::ok);
-    let rows = records.filter(|cells| cells.iter().any(|cell| !cell.is_empty())).map(|cells| {
-        let line = cells.position().map_or(1, |at| at.line() as usize);
-        RawRow { line, is_comment: lines.get(line - 1).is_some_and(|line| is_comment(line)), cells }
+/// The cells of a row, of which one under several headings is parted: 600x400x2000.
+fn parted<'a>(cells: &'a StringRecord, parts: &[Vec<Heading>]) -> Vec<&'a str> {
+    let sides = cells.iter().zip(parts).map(|(cell, headings)| {
+        let sides: Vec<&str> = cell.split(['x', 'X', '\u{d7}', '*']).map(str::trim).collect();
+        if sides.len() == headings.len() {
+            sides
+        } else {
+            [vec![cell], vec![""; headings.len() - 1]].concat()
+        }
     });
-    Ok(rows.collect())
+    sides.flatten().collect()
 }
 
+/// Rows of a workbook, by their line.
 fn rows_of_cells<'a>(first: usize, rows: impl Iterator<Item = &'a [String]>) -> Vec<RawRow> {
     let rows = (first..).zip(rows).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
-    rows.map(|(line, cells)| RawRow { line, is_comment: false, cells: cells.iter().collect() }).collect()
-}
-
-fn is_comment(line: &str) -> bool {
-    ["#", "%", "//"].iter().any(|sign| line.starts_with(sign))
-}
-
-fn uncommented(text: &str) -> &str {
-    if is_comment(text) { text.trim_start_matches(['#', '%', '/', ' ']) } else { text }
-}
-
-/// Finds what separates cells: what parts most of the last lines, and parts the most of them into numbers.
-fn separator(lines: &[&str]) -> char {
-    let body = lines.iter().rev().filter(|line| !line.is_empty() && !is_comment(line));
-    let body: Vec<&str> = body.take(SHOWN).copied().collect();
-    let shares = [',', '\t', ';'].map(|sign| {
-        let parted = body.iter().filter(|line| is_parted(line, sign)).count();
-        let cells: Vec<&str> = body.iter().flat_map(|line| line.split(sign)).collect();
-        let numbers = cells.iter().filter(|cell| is_number(cell.trim_matches([' ', '"']))).count();
-        let share = (parted * numbers) as f64 / (body.len() * cells.len()) as f64;
-        (sign, Some(share).filter(|_| parted > 0 && 2 * parted >= body.len()))
-    });
-    let shares = shares.into_iter().filter_map(|(sign, share)| Some((sign, share?)));
-    shares.max_by(|(_, a), (_, b)| a.total_cmp(b)).map_or(' ', |(sign, _)| sign)
-}
-
-/// Whether a sign separates cells of a line. Among numbers between blanks, a comma is a decimal one.
-fn is_parted(line: &str, sign: char) -> bool {
-    let is_unquoted = line.split('"').step_by(2).any(|unquoted| unquoted.contains(sign));
-    let mut words = line.split_whitespace();
-    let are_numbers = line.contains(' ') && words.all(|word| !word.ends_with(',') && is_number(word));
-    is_unquoted && !(sign == ',' && are_numbers)
-}
-
-/// Joins lines for the reader of rows, which counts them.
-fn join_lines(lines: &[&str], separator: char) -> Result<String> {
-    let (mut text, mut quoted_from) = (String::new(), None);
-    for (line, number) in lines.iter().zip(1..) {
-        let (start, was_quoted) = (text.len(), quoted_from.is_some());
-        if separator == ' ' && !was_quoted {
-            // A unit in brackets belongs to its heading, and the sign of a comment to its first word.
-            let bare = uncommented(line);
-            let words = bare.replace(" (", "(").replace(" [", "[");
-            text += line[..line.len() - bare.len()].trim_end();
-            text += &words.split_whitespace().collect::<Vec<_>>().join(" ");
-        } else {
-            text += line;
-        }
-        let is_quoted = is_quoted_behind(&text[start..], separator, was_quoted);
-        if is_quoted && !was_quoted && is_comment(line) {
-            text.truncate(start);
-            text += &line.replace('"', "");
-        } else {
-            quoted_from = is_quoted.then_some(quoted_from.unwrap_or(number));
-        }
-        // A row with one empty cell keeps the line count.
-        text += if line.is_empty() && quoted_from.is_none() { "\"\"\n" } else { "\n" };
-    }
-    let never_closed = quoted_from.filter(|line| lines[*line..].iter().any(|line| !line.is_empty()));
-    never_closed.map_or(Ok(text), |line| Err(InputError::Quote { line }))
-}
-
-/// Whether a quotation mark is open behind a line: one opens at the beginning of a cell, or again behind one.
-fn is_quoted_behind(line: &str, separator: char, is_quoted: bool) -> bool {
-    let next = |(is_quoted, may_open): (bool, bool), sign: char| match sign {
-        '"' => (!is_quoted && may_open, is_quoted),
-        _ => (is_quoted, sign == separator),
-    };
-    line.chars().fold((is_quoted, true), next).0
-}
-
-/// In which columns numbers stand, by the row of the last ones that has the most.
-fn number_columns(rows: &[RawRow]) -> Vec<bool> {
-    let last = rows.iter().rev().filter(|row| !row.is_comment).take(SHOWN);
-    let model = last.max_by_key(|row| row.cells.iter().filter(|cell| is_number(cell)).count());
-    model.map_or(Vec::new(), |model| model.cells.iter().map(is_number).collect())
-}
-
-/// Finds the heading: the row above the numbers, or first of them, that has the most words where others have
-/// numbers; a comment needs as many cells as a row. Of equal rows the last one is that above the numbers;
-/// without numbers, all but the first are rows.
-fn heading_row(above: &[RawRow], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
-    let width = is_number_column.len();
-    let is_whole = |row: &RawRow| match row.is_comment || separator == Some(' ') {
-        true => row.cells.len() == width,
-        false => row.cells.len() >= width.min(2),
-    };
-    let words = above.iter().map(|row| count_words(row, is_number_column)).zip(above).enumerate();
-    let rows = words.filter(|(_, (words, row))| *words > 0 && is_whole(row) && !is_units(row));
-    let words = |(_, (words, _)): &(usize, (usize, &RawRow))| *words;
-    let best = match is_number_column.contains(&true) {
-        true => rows.max_by_key(words),
-        false => rows.rev().max_by_key(words),
-    };
-    best.map(|(at, _)| at)
-}
-
-/// Whether numbers are more than words where numbers are expected.
-fn is_data(row: &RawRow, is_number_column: &[bool]) -> bool {
-    let cells = is_number_column.iter().zip(&row.cells).filter(|(is_number, _)| **is_number);
-    cells.filter(|(_, cell)| is_number(cell)).count() > count_words(row, is_number_column)
-}
-
-/// Whether all that stands behind the first cell where numbers are expected is numbers.
-fn has_numbers_behind(cells: &StringRecord, is_number_column: &[bool]) -> bool {
-    let expected = cells.iter().zip(is_number_column).skip(1).filter(|(_, is_number)| **is_number);
-    let mut filled = expected.map(|(cell, _)| cell).filter(|cell| !is_missing(cell)).peekable();
-    filled.peek().is_some() && filled.all(is_number)
-}
-
-/// How many cells have words where numbers are expected, or at all if none are. What begins with a digit is a
-/// damaged number.
-fn count_words(row: &RawRow, is_number_column: &[bool]) -> usize {
-    let is_anywhere = !is_number_column.contains(&true);
-    let cells = row.cells.iter().enumerate();
-    let cells = cells.filter(|(at, _)| is_anywhere || is_number_column.get(*at) == Some(&true));
-    cells.filter(|(_, cell)| is_word(cell)).count()
-}
-
-fn is_word(cell: &str) -> bool {
-    let start = cell.trim_start_matches(['+', '-', '.', '<', '>', '~', ' ']);
-    !is_missing(cell) && !is_number(cell) && !start.starts_with(|sign: char| sign.is_ascii_digit())
-}
-
-/// Whether a row has units and nothing else.
-fn is_units(row: &RawRow) -> bool {
-    const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
-    let cells = row.cells.iter();
-    let cells = cells.map(|cell| uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
-    let mut units = cells.filter(|cell| !OTHERS.contains(&cell.as_str())).peekable();
-    units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
-}
-
-/// Whether a row is a line drawn with signs.
-fn is_ruler(cells: &StringRecord) -> bool {
-    let mut cells = cells.iter().filter(|cell| !cell.is_empty());
-    cells.all(|cell| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign)))
-}
-
-/// Headings with the units in a row below.
-fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
-    let with_unit = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
-        "" | "-" => Ok(heading.clone()),
-        "a" | "[a]" | "(a)" => Ok(heading.with_unit("years").unwrap_or(heading.clone())),
-        unit => heading
-            .with_unit(uncommented(unit))
-            .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() }),
-    };
-    headings.iter().enumerate().map(with_unit).collect()
+    rows.map(|(line, cells)| RawRow::new(line, cells.iter().collect(), None)).collect()
 }

@@ -2,7 +2,7 @@
 
 use rockfrag_core::units::{Quantity, Unit};
 
-use super::words::joined;
+use super::words::{are_known, joined, normal};
 
 /// The longest text that may say a unit: a search for one in every part of a long line would not end.
 const LONGEST: usize = 100;
@@ -24,19 +24,50 @@ pub struct Heading {
 
 impl Heading {
     pub fn new(text: &str) -> Heading {
-        let (bare, unit, is_scaled) = match in_brackets(text).or_else(|| at_end(text)) {
+        let plain = normal(text);
+        let (bare, unit, is_scaled) = match in_brackets(&plain).or_else(|| at_end(&plain)) {
             Some((bare, unit)) => (bare, unit, unit.is_none()),
-            None => (text.to_string(), None, false),
+            None => (plain.to_string(), None, false),
         };
-        let is_percent = unit.is_none() && text.contains('%');
+        let is_percent = unit.is_none() && plain.contains('%');
         Heading { text: text.to_string(), name: joined(&bare), bare, unit, is_scaled, is_percent }
     }
 
-    /// A cell without the unit behind its number, which is that of the heading: 40 cm below `Width (cm)`.
+    /// A heading in several rows, of which the unit may stand in any: `Dimensions (mm) / W`.
+    pub fn of_rows(mut rows: Vec<&str>) -> Heading {
+        rows.retain(|row| !row.is_empty());
+        rows.dedup();
+        let parts: Vec<Heading> = rows.iter().map(|row| Heading::new(row)).collect();
+        let whole = |of: fn(&Heading) -> &str| parts.iter().map(of).collect::<Vec<_>>().join(" / ");
+        let (text, bare) = (whole(|part| &part.text), whole(|part| &part.bare));
+        Heading {
+            name: joined(&bare),
+            unit: parts.iter().rev().find_map(|part| part.unit),
+            is_scaled: parts.iter().any(|part| part.is_scaled),
+            is_percent: parts.iter().any(|part| part.is_percent),
+            text,
+            bare,
+        }
+    }
+
+    /// Three headings in one, `W x D x H (mm)`, of cells such as 600x400x2000; none where it is no such.
+    pub fn parted(&self) -> Option<Vec<Heading>> {
+        let plain = normal(&self.bare).replace(['*', '\u{d7}'], "x");
+        let words: Vec<&str> = plain.split([' ', '(', ')', '/', '[', ']', ':']).collect();
+        let joined = words.join(" ").replace(" x ", "x");
+        let sides =
+            joined.split(' ').map(|word| word.split('x').collect::<Vec<_>>()).find(|of| of.len() == 3)?;
+        let heading = |side: &str| Heading {
+            text: format!("{}: {side}", self.text),
+            ..Heading { unit: self.unit, is_scaled: self.is_scaled, ..Heading::new(side) }
+        };
+        sides.iter().all(|side| are_known(side)).then(|| sides.iter().map(|side| heading(side)).collect())
+    }
+
+    /// A cell without the unit behind its number, if that is the unit of the heading: 40 cm below `Width (cm)`.
     pub fn without_unit<'a>(&self, cell: &'a str) -> &'a str {
-        let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
-        let is_own = |unit: &Unit| (1..cell.len()).contains(&end) && Unit::parse(&cell[end..]) == Some(*unit);
-        self.unit.filter(is_own).map_or(cell, |_| cell[..end].trim_end())
+        let parted = number_with_unit(cell).filter(|(_, unit)| self.unit == Some(*unit));
+        parted.map_or(cell, |(number, _)| number)
     }
 
     /// The heading with the unit in a cell below it; none where it has another one.
@@ -48,6 +79,15 @@ impl Heading {
         let is_percent = own.is_percent || unit == "%";
         is_same.then_some(Heading { text: self.text.clone(), is_percent, ..own })
     }
+}
+
+/// A number and the unit behind it.
+pub fn number_with_unit(cell: &str) -> Option<(&str, Unit)> {
+    let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
+    if end == 0 || end == cell.len() {
+        return None;
+    }
+    Some((cell[..end].trim_end(), Unit::parse(&normal(&cell[end..]))?))
 }
 
 /// The rest of a heading, and what brackets in it say: the last that hold a unit alone, else those that
@@ -68,15 +108,25 @@ fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
     explaining
 }
 
-/// The beginning of a heading, and the unit at its end; what stands in brackets is no end.
+/// The beginning of a heading, and the unit at its end, where letters of another script or a word end too;
+/// what stands in brackets is no end.
 fn at_end(text: &str) -> Option<(String, Option<Unit>)> {
     let last = text.rfind([')', ']']).map_or(0, |at| at + 1);
     let first = last.max(1).max(text.len().saturating_sub(LONGEST));
-    let mut ends = text.match_indices([' ', '_', ',']).filter(|(at, _)| *at >= first);
-    ends.find_map(|(at, _)| {
-        let end = text[at + 1..].trim_matches(['(', ')', '[', ']', ' ']);
+    let signs =
+        text.char_indices().zip(text.chars().skip(1)).filter(|((at, sign), _)| at + sign.len_utf8() > first);
+    let ends = signs.filter_map(|((at, sign), next)| match sign {
+        ' ' | '_' | ',' | '/' => Some((at, at + 1)),
+        _ if next == '"' || !sign.is_ascii() && next.is_ascii_alphabetic() => {
+            Some(at + sign.len_utf8()).map(|end| (end, end))
+        }
+        _ => None,
+    });
+    ends.into_iter().find_map(|(at, start)| {
+        let end = text[start..].trim_matches(['(', ')', '[', ']', ' ']);
         let is_told = end.contains('=') || end.starts_with(['x', 'X', '\u{d7}', '*']);
-        let said = Unit::parse(end).map(Some).or_else(|| explained(end).filter(|_| is_told));
+        let unit = Unit::parse(end.strip_prefix("in ").unwrap_or(end));
+        let said = unit.map(Some).or_else(|| explained(end).filter(|_| is_told));
         Some((text[..at].to_string(), said?))
     })
 }

@@ -4,7 +4,9 @@
 //! unpack       gzip and zip
 //! decode       bytes to text: UTF-8, UTF-16, Windows-1252, Shift JIS, any ends of lines
 //! workbook     sheets of .xlsx, .xls and .ods
-//! grid         text or a sheet to cells under headings, with the line of each
+//! separated    rows of a text
+//! layout       which rows of a file or sheet are headings, units, remarks, sections and data
+//! grid         cells under headings, with the line of each
 //! heading      names and units
 //! numbers      which signs are decimal and which stand between thousands, settled for a whole table
 //! reader       headings that the user names or leaves out
@@ -27,11 +29,13 @@ mod grid;
 pub mod hazard;
 mod heading;
 pub mod intensities;
+mod layout;
 mod numbers;
 pub mod objects;
 mod reader;
 mod reading;
 pub mod records;
+mod separated;
 mod unpack;
 pub mod words;
 mod workbook;

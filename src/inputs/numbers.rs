@@ -3,7 +3,9 @@
 
 use std::borrow::Cow;
 
+use super::grid::Source;
 use super::heading::Heading;
+use super::words::{normal, normal_number};
 
 /// What may be decimal or stand between thousands.
 const SIGNS: [char; 2] = ['.', ','];
@@ -46,11 +48,10 @@ pub struct Evidence {
     largest: f64,
 }
 
-const MISSING: [&str; 12] =
-    ["", "-", "--", "\u{2013}", "na", "n/a", "n.a.", "#n/a", "nan", "null", "none", "missing"];
+const MISSING: [&str; 11] = ["", "-", "--", "na", "n/a", "n.a.", "#n/a", "nan", "null", "none", "missing"];
 
 pub fn is_missing(cell: &str) -> bool {
-    MISSING.contains(&cell.trim().to_lowercase().as_str())
+    MISSING.contains(&normal(cell.trim()).to_lowercase().as_str())
 }
 
 /// The number in a cell if points are decimal, and if commas are.
@@ -80,6 +81,7 @@ impl Evidence {
         if by_country == [None; 2] {
             return;
         }
+        let cell = &*normal(cell);
         self.has_percent |= cell.ends_with('%');
         self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
         let [has_point, has_comma] = SIGNS.map(|sign| cell.contains(sign));
@@ -122,7 +124,8 @@ impl Evidence {
 }
 
 /// Settles how each column is written. In a workbook points are decimal.
-pub fn notations(columns: &[Evidence], is_workbook: bool) -> Vec<DecimalNotation> {
+pub fn notations(columns: &[Evidence], source: Source) -> Vec<DecimalNotation> {
+    let is_workbook = matches!(source, Source::Xlsx | Source::Workbook);
     let all = [0, 1].map(|at| Seen {
         decimal: columns.iter().any(|column| column.signs[at].decimal),
         thousands: columns.iter().any(|column| column.signs[at].thousands),
@@ -130,7 +133,10 @@ pub fn notations(columns: &[Evidence], is_workbook: bool) -> Vec<DecimalNotation
     });
     let notations = columns.iter().map(|own| DecimalNotation {
         signs: [if is_workbook { Sign::Decimal } else { own.sign(0, &all) }, own.sign(1, &all)],
-        may_be_shares: is_workbook && own.has_percent && own.largest > 0.0 && own.largest <= 1.0,
+        may_be_shares: source == Source::Workbook
+            && own.has_percent
+            && own.largest > 0.0
+            && own.largest <= 1.0,
     });
     notations.collect()
 }
@@ -138,7 +144,8 @@ pub fn notations(columns: &[Evidence], is_workbook: bool) -> Vec<DecimalNotation
 impl DecimalNotation {
     /// Reads a number; 10 % is 0.1.
     pub fn number(self, cell: &str) -> Option<f64> {
-        let (text, size) = share(cell);
+        let cell = normal_number(cell)?;
+        let (text, size) = share(&cell);
         let mut text = Cow::Borrowed(text);
         let others = [('\'', Sign::Thousands), (' ', Sign::Thousands)];
         for (sign, known) in SIGNS.into_iter().zip(self.signs).chain(others) {

@@ -1,6 +1,6 @@
 //! Lists of objects as people keep them: names, sizes, floors, numbers, anchors.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use rockfrag_core::object::{Field, Object, ObjectError, Place, Wall};
@@ -10,17 +10,27 @@ use rockfrag_core::warning::{Warning, Warnings};
 use strum::VariantArray;
 
 use super::floors::{self, Building, Storey};
-use super::words::{is_one_of, joined, means, synonyms};
+use super::numbers::is_missing;
+use super::words::{is_one_of, joined, means, normal, synonyms};
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// What a column of a list says.
+#[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 enum Role {
     Name,
+    #[strum(to_string = "{0}")]
     Known(Field),
+    /// Of a round base.
+    Diameter,
     Count,
+    /// A number that counts objects or names them.
+    Number,
     /// The unit of lengths.
     Unit,
+    /// Known, and not needed.
+    Mass,
     /// What holds an object.
     Held,
     /// The floor that it stands on.
@@ -28,11 +38,13 @@ enum Role {
     /// The number of storeys of its building.
     Storeys,
     Building,
-    /// A property of the object that is not understood.
+    /// A property of the object that is not understood: without it the object has no answer.
     Unclear,
     /// What befell the object.
     Other,
-    Unused,
+    /// Texts of the list's own.
+    Kept,
+    NotUnderstood,
 }
 
 /// Floors beyond this number are levels in percent, or something else.
@@ -44,19 +56,27 @@ pub struct ListDefaults {
     pub ground_floor: Option<u32>,
     /// Where objects stand that do not say so themselves.
     pub place: Place,
+    /// The storeys and the kind of building of objects that do not say so themselves.
+    pub storeys: Option<u32>,
+    pub building: Option<&'static Building>,
 }
 
 struct List<'a> {
     grid: &'a Grid,
     columns: Vec<Role>,
     ground_floor: u32,
-    place: Place,
+    defaults: ListDefaults,
 }
 
-/// Reads a list: the objects of its rows, and what of it is not used.
+/// Reads a list: the objects of its rows, and what is not known of them.
 pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
     let list = |reader: &mut Reader| {
-        let grid = reader.read(path)?;
+        let mut grid = reader.read(path)?;
+        grid.leave_out("a row of totals", |grid, row| {
+            let name = grid.about("name").map_or("", |at| grid.cell(row, at));
+            let first = (0..grid.headings.len()).find_map(|at| grid.value(row, at)).unwrap_or_default();
+            [name, first].iter().any(|cell| means(cell, "total"))
+        });
         let list = List::new(&grid, defaults)?;
         reader.tell(path, &grid, list.meanings());
         Ok((list.objects(), list.doubts()))
@@ -64,7 +84,7 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
     list(reader).map_err(|error: InputError| error.in_file(path))
 }
 
-/// The objects of the rows of a grid, and what of it is not used but for these other columns.
+/// The objects of the rows of a grid, of which these other columns say nothing, and what is not known of them.
 pub fn in_rows(grid: &Grid, others: &[usize], defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
     let mut list = List::new(grid, defaults)?;
     others.iter().for_each(|at| list.columns[*at] = Role::Other);
@@ -82,51 +102,85 @@ pub fn describes_object(heading: &Heading) -> bool {
     }
 }
 
+/// What a heading says, parsed to its end: one with a word left over is not understood.
 fn meaning(heading: &Heading) -> Role {
-    const OTHERS: [(&str, Role); 5] = [
+    let name = &*heading.name;
+    let words: Vec<&str> = name.split('-').filter(|word| !is_one_of(word, "of-sizes")).collect();
+    let (centres, others): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_one_of(word, "centre"));
+    let is_one_thing = |role: &Role| words.iter().all(|word| known(word).as_ref() == Some(role));
+    let quantity = heading.unit.map(|unit| unit.quantity);
+    let starts =
+        |meaning: &str| words.iter().any(|word| synonyms(meaning).any(|start| word.starts_with(start)));
+    if words.iter().any(|word| is_one_of(word, "count")) && known(name).is_none_or(|role| role == Role::Count)
+        || quantity == Some(Quantity::Counts)
+    {
+        Role::Count
+    } else if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
+        role
+    } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
+        // In two languages.
+        role
+    } else if !centres.is_empty() {
+        match known(&others.join("-")) {
+            Some(Role::Known(Field::Height)) => Role::Known(Field::CentreHeight),
+            Some(Role::Known(Field::CentreOffset)) => Role::Known(Field::CentreOffset),
+            _ => Role::Unclear,
+        }
+    } else if starts("holds") {
+        Role::Held
+    } else if name.is_empty() && heading.text == "#" {
+        Role::Number
+    } else if synonyms("of-objects").any(|part| name.contains(part)) || quantity == Some(Quantity::Length) {
+        // A length is perhaps another side of the base: without it the object would seem safer.
+        Role::Unclear
+    } else {
+        Role::NotUnderstood
+    }
+}
+
+/// The role of a heading in these words.
+fn known(name: &str) -> Option<Role> {
+    const OTHERS: [(&str, Role); 8] = [
+        ("diameter", Role::Diameter),
         ("count", Role::Count),
+        ("number", Role::Number),
         ("unit", Role::Unit),
+        ("mass", Role::Mass),
         ("storey", Role::Storey),
         ("storeys", Role::Storeys),
         ("building", Role::Building),
     ];
-    let (name, quantity) = (&heading.name, heading.unit.map(|unit| unit.quantity));
     let fields = Field::VARIANTS.iter().map(|field| (field.into(), Role::Known(*field)));
-    let mut known = fields.chain(OTHERS).filter(|(meaning, _)| name == meaning || is_one_of(name, meaning));
-    match known.next().map(|(_, column)| column) {
-        _ if quantity == Some(Quantity::Counts) => Role::Count,
-        Some(column) => column,
-        None if synonyms("held").any(|start| name.starts_with(start)) => Role::Held,
-        None if synonyms("of-objects").any(|part| name.contains(part)) => Role::Unclear,
-        // Perhaps another side of the base: without it the object would seem safer.
-        None if quantity == Some(Quantity::Length) => Role::Unclear,
-        None => Role::Unused,
-    }
+    let mut all = fields.chain(OTHERS).filter(|(meaning, _)| name == *meaning || is_one_of(name, meaning));
+    all.next().map(|(_, role)| role).filter(|_| !name.is_empty())
 }
 
 impl List<'_> {
     fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>> {
         let mut columns: Vec<Role> = grid.headings.iter().map(meaning).collect();
         grid.about("name").into_iter().for_each(|at| columns[at] = Role::Name);
-        let mut list = List { grid, columns, ground_floor: 0, place: defaults.place };
-        list.check()?;
+        let mut list = List { grid, columns, ground_floor: 0, defaults: *defaults };
         let has_units = list.column(Role::Unit).is_some_and(|at| {
             let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
         let is_of_floors = list.level_is_of_floors();
         let has_storey = list.column(Role::Storey).is_some() || is_of_floors;
-        for (at, column) in list.columns.iter_mut().enumerate() {
-            match column {
-                Role::Known(Field::Level) if is_of_floors => *column = Role::Storey,
-                Role::Count if numbers_rows(grid, at) => *column = Role::Unused,
+        for at in 0..list.columns.len() {
+            let is_text = grid.is_text(at);
+            list.columns[at] = match list.columns[at] {
+                Role::Known(Field::Level) if is_of_floors => Role::Storey,
+                Role::Number if is_text => Role::Kept,
+                Role::Number => list.count_or_name(at)?,
                 // A ward, perhaps.
-                Role::Unit if !has_units => *column = Role::Unused,
+                Role::Unit if !has_units => Role::Kept,
                 // Without a floor, the building says nothing.
-                Role::Storeys | Role::Building if !has_storey => *column = Role::Unused,
-                _ => {}
-            }
+                Role::Storeys | Role::Building if !has_storey => Role::Kept,
+                Role::NotUnderstood if is_text => Role::Kept,
+                role => role,
+            };
         }
+        list.check()?;
         let Some(at) = list.column(Role::Storey) else { return Ok(list) };
         let open = grid.rows().filter(|row| list.cell(*row, Role::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
@@ -134,6 +188,21 @@ impl List<'_> {
         let found = defaults.ground_floor.map_or_else(|| floors::ground_floor(&storeys), Ok);
         list.ground_floor = found.map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
         Ok(list)
+    }
+
+    /// Numbers count objects if one comes again, and name rows if they go up by one.
+    fn count_or_name(&self, at: usize) -> Result<Role> {
+        let numbers = self.grid.numbers(at)?;
+        let mut distinct: Vec<u64> = numbers.iter().map(|number| number.to_bits()).collect();
+        distinct.sort();
+        distinct.dedup();
+        let heading = &self.grid.headings[at].text;
+        let go_up = numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
+        match go_up && (numbers.len() > 1 || numbers == [1.0]) {
+            true => Ok(Role::Kept),
+            false if distinct.len() < numbers.len() => Ok(Role::Count),
+            false => Err(InputError::Number { heading: heading.clone() }),
+        }
     }
 
     /// Whether levels are floors: shares of the height of a building do not exceed 1.
@@ -146,40 +215,55 @@ impl List<'_> {
         })
     }
 
-    /// Checks the headings, and the lengths below each.
+    /// Checks the headings, the lengths below each, and remarks on units.
     fn check(&self) -> Result<()> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
         if [Field::Height, Field::P].iter().all(|field| self.column(Role::Known(*field)).is_none()) {
-            let mut unknown = self.headings(Role::Unused).chain(self.headings(Role::Unclear));
+            let unknown = [Role::NotUnderstood, Role::Unclear, Role::Kept];
+            let mut unknown = unknown.iter().flat_map(|role| self.headings(*role));
             return Err(InputError::not_understood(unknown.next(), expected, grid.found()));
         }
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
         }
+        let remarks = grid.notes.iter().map(String::as_str).chain(self.beside());
+        let remarked = remarks.filter_map(|note| Some((note, unit_of_remark(note)?))).next();
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             let text = heading.text.replace("(-)", "").replace("[-]", "");
-            let has_sign = text.contains(['(', '[', '"', '\'', '%']);
+            let has_sign = text.contains(['(', '[', '%']) && is_one_of(&heading.name, &column.to_string());
             if matches!(column, Role::Known(_)) && heading.unit.is_none() && has_sign {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::unexpected(found, "m, cm or mm in brackets, or no unit"));
             }
-            let may_repeat = matches!(column, Role::Held | Role::Unclear | Role::Unused);
+            let may_repeat = matches!(column, Role::Held | Role::Unclear | Role::NotUnderstood | Role::Kept);
             if let Some(first) = self.column(*column).filter(|first| *first != at && !may_repeat) {
                 let found = format!("columns '{}' and '{}'", grid.headings[first].text, heading.text);
-                return Err(InputError::unexpected(found, "one of them"));
+                return Err(InputError::unexpected(found, "one of them (--ignore leaves one out)"));
             }
-            let is_side = matches!(column, Role::Known(Field::Width | Field::Depth | Field::Height));
+            let is_side = [Field::Width, Field::Depth, Field::Height].map(Role::Known).contains(column)
+                || *column == Role::Diameter;
             if let Some(unit) = heading.unit.filter(|_| is_side) {
                 let lengths = grid.rows().filter_map(|row| grid.number(row, at).ok());
                 validate_lengths(*column == Role::Known(Field::Height), unit, lengths).map_err(
                     |expected| InputError::unexpected(format!("column '{}'", heading.text), expected),
                 )?;
-            } else if let Some(note) = grid.notes.iter().find(|note| is_side && names_unit_of_length(note)) {
-                let expected = "the unit in the heading of each column: Width (mm)";
-                return Err(InputError::unexpected(format!("a unit above the headings: '{note}'"), expected));
+            }
+            let size = heading.unit.map_or(1.0, |unit| unit.si);
+            if let Some((note, _)) = remarked.filter(|(_, unit)| is_side && unit.si != size) {
+                let found = format!("a remark on units: '{note}'");
+                return Err(InputError::unexpected(
+                    found,
+                    "the unit in the heading of each column: Width (mm)",
+                ));
             }
         }
         Ok(())
+    }
+
+    /// What stands beside the table, under no heading.
+    fn beside(&self) -> impl Iterator<Item = &str> {
+        let columns = (0..self.columns.len()).filter(|at| self.grid.headings[*at].text.is_empty());
+        columns.flat_map(move |at| self.grid.rows().map(move |row| self.grid.cell(row, at)))
     }
 
     fn column(&self, wanted: Role) -> Option<usize> {
@@ -196,23 +280,22 @@ impl List<'_> {
         self.column(column).and_then(|at| self.grid.value(row, at))
     }
 
-    /// The columns that are not used, named once, and the words that are taken as no value.
+    /// The words that are taken as no value.
     fn doubts(&self) -> Warnings {
         let (grid, mut doubts) = (self.grid, Warnings::default());
-        let unused: Vec<&str> = self.headings(Role::Unused).collect();
-        if !unused.is_empty() {
-            doubts.add(Warning::UnusedColumns, unused.join(", "));
-        }
         for (at, column) in self.columns.iter().enumerate() {
-            let mut values = grid.rows().filter_map(|row| grid.value(row, at));
+            let says = |row: usize| match column {
+                // None is an answer.
+                Role::Held => !grid.cell(row, at).is_empty(),
+                _ => grid.value(row, at).is_some() || self.cell(row, Role::Diameter).is_some(),
+            };
             // A blank cell beside filled ones may be unknown.
             let is_open = match column {
-                Role::Held => values.any(|cell| means(cell, "free")),
-                Role::Known(Field::Depth) => values.next().is_some(),
-                Role::Known(_) => false,
+                Role::Held | Role::Known(Field::Depth) => grid.rows().any(says),
+                Role::Known(_) | Role::Diameter => false,
                 _ => continue,
             };
-            for row in grid.rows().filter(|row| grid.value(*row, at).is_none()) {
+            for row in grid.rows().filter(|row| !says(*row)) {
                 if is_open || grid.cell(row, at).contains(char::is_alphanumeric) {
                     let about = format!("{} of {}", grid.headings[at].text, self.name_of(row));
                     doubts.add(Warning::NotGiven, about);
@@ -226,10 +309,10 @@ impl List<'_> {
         let names: Vec<String> = self.grid.rows().map(|row| self.name_of(row)).collect();
         let mut uses: HashMap<&str, usize> = HashMap::new();
         names.iter().for_each(|name| *uses.entry(name).or_default() += 1);
-        let names_floors = self.place.level.is_none() && self.grid.rows().any(|row| self.names_floor(row));
-        let objects = names.iter().zip(&self.grid.lines).enumerate().map(|(row, (name, line))| {
+        let (tags, level) = (self.tags(), self.defaults.place.level);
+        let names_floors = level.is_none() && self.grid.rows().any(|row| self.names_floor(row));
+        let objects = names.iter().enumerate().map(|(row, name)| {
             let object = match self.object(row) {
-                Ok(_) if means(name, "total") => Err("a row of totals, not an object".to_string()),
                 Ok(_) if names_floors && !self.names_floor(row) => {
                     Err("no floor, but others have one: write G if it is the ground".to_string())
                 }
@@ -237,34 +320,36 @@ impl List<'_> {
             };
             let refused = self.held(row).or(object.as_ref().err().cloned().map(ObjectError::Implausible));
             let labels = self.labels(row);
-            let is_unique = uses[name.as_str()] == 1;
-            let name = if is_unique { name.clone() } else { format!("{name} (line {line})") };
+            let line = || format!("line {}", self.grid.lines[row]);
+            let tag = tags.map_or_else(line, |at| self.grid.cell(row, at).to_string());
+            let name = if uses[name.as_str()] == 1 { name.clone() } else { format!("{name} ({tag})") };
             Object { name, refused, labels, ..object.unwrap_or_default() }
         });
         objects.collect()
     }
 
-    /// What each column says.
-    fn meanings(&self) -> Vec<Meaning> {
-        let meaning = |(at, role): (usize, &Role)| match role {
-            Role::Known(field) => Meaning::Known(field.to_string()),
-            Role::Unused if self.is_text(at) => Meaning::Kept,
-            Role::Unused | Role::Unclear => Meaning::NotUnderstood,
-            other => Meaning::Known(format!("{other:?}").to_lowercase()),
-        };
-        self.columns.iter().enumerate().map(meaning).collect()
+    /// The first column of tags: texts of which each is another.
+    fn tags(&self) -> Option<usize> {
+        let mut kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
+        kept.find(|at| {
+            let cells: HashSet<&str> = self.grid.rows().map(|row| self.grid.cell(row, *at)).collect();
+            cells.len() == self.grid.lines.len() && !cells.contains("")
+        })
     }
 
-    /// Whether the cells of a column are texts.
-    fn is_text(&self, at: usize) -> bool {
-        let mut values = self.grid.rows().filter(|row| self.grid.value(*row, at).is_some());
-        values.any(|row| self.grid.number(row, at).is_err())
+    /// What each column says.
+    fn meanings(&self) -> Vec<Meaning> {
+        let meaning = |role: &Role| match role {
+            Role::Kept => Meaning::Kept,
+            Role::NotUnderstood | Role::Unclear => Meaning::NotUnderstood,
+            known => Meaning::Known(known.to_string()),
+        };
+        self.columns.iter().map(meaning).collect()
     }
 
     /// What else a row says, in words of its own.
     fn labels(&self, row: usize) -> Vec<(String, String)> {
-        let kept =
-            (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Unused && self.is_text(*at));
+        let kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
         kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
     }
 
@@ -273,6 +358,10 @@ impl List<'_> {
             "" => format!("line {}", self.grid.lines[row]),
             name => name.to_string(),
         }
+    }
+
+    fn has(&self, row: usize, field: Field) -> bool {
+        self.cell(row, Role::Known(field)).is_some()
     }
 
     /// Whether a row says on which floor its object stands.
@@ -284,8 +373,9 @@ impl List<'_> {
         let mut object = Object::default();
         for (at, column) in self.columns.iter().enumerate() {
             let cell = self.grid.cell(row, at);
-            let is_needed =
-                [Field::Width, Field::Height, Field::P, Field::Alpha].map(Role::Known).contains(column);
+            let is_round = *column == Role::Known(Field::Width) && self.cell(row, Role::Diameter).is_some();
+            let is_needed = !is_round
+                && [Field::Width, Field::Height, Field::P, Field::Alpha].map(Role::Known).contains(column);
             let (name, size) = match column {
                 _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
                 Role::Known(Field::Wall) if means(cell, "free") => continue,
@@ -294,11 +384,25 @@ impl List<'_> {
                     continue;
                 }
                 Role::Known(field) => (field.into(), self.size(row, at, *field)?),
+                Role::Diameter if [Field::Width, Field::Depth].iter().any(|side| self.has(row, *side)) => {
+                    return Err("a diameter and a width or depth: which is that of its base?".to_string());
+                }
+                Role::Diameter => {
+                    let size = self.size(row, at, Field::Width)?;
+                    let number = self.grid.number(row, at).map_err(|error| error.to_string())?;
+                    let diameter = rounded(size * number).to_string();
+                    object.set(Field::Depth.into(), &diameter)?;
+                    object.set(Field::Width.into(), &diameter)?;
+                    continue;
+                }
+                Role::Count if self.grid.is_repeated(row, at) => {
+                    return Err("a number in merged cells: write that of each object".to_string());
+                }
                 Role::Count => ("count", 1.0),
                 Role::Unclear => {
                     let text = &self.grid.headings[at].text;
                     return Err(format!(
-                        "column '{text}' is not understood: rename it (--columns) or leave it out"
+                        "column '{text}' is not understood: rename it (--columns) or leave it out (--ignore)"
                     ));
                 }
                 _ => continue,
@@ -333,13 +437,14 @@ impl List<'_> {
     /// Puts an object on the floor that its row names.
     fn put_on_floor(&self, row: usize, object: &mut Object) -> Result<(), String> {
         let Some(cell) = self.cell(row, Role::Storey) else { return Ok(()) };
-        let (storey, all) = (Storey::parse(cell), self.cell(row, Role::Storeys));
+        let default = self.defaults.storeys.map(|all| all.to_string());
+        let (storey, all) = (Storey::parse(cell), self.cell(row, Role::Storeys).or(default.as_deref()));
         if let Some(Storey::Number(number) | Storey::Above(number)) = storey {
             let of_all = all.map_or(String::new(), |all| format!(" of {all}"));
             object.floor = Some(format!("floor {number}{of_all}"));
         }
         let place = &mut object.place;
-        let known = Place { period: place.period.or(self.place.period), ..*place };
+        let known = Place { period: place.period.or(self.defaults.place.period), ..*place };
         if known.level.is_some() && known.period.is_some() {
             return Ok(());
         }
@@ -350,7 +455,7 @@ impl List<'_> {
             place.level.get_or_insert(0.0);
             return Ok(());
         }
-        let expected = "the storeys of the building (column Storeys), or Level and T1 (s)";
+        let expected = "the storeys of the building (column Storeys, or --storeys), or Level and T1 (s)";
         let all = all.ok_or_else(|| format!("floor {cell}: expected {expected}"))?;
         let storeys = all.parse().ok().filter(|all: &f64| all.fract() == 0.0 && (1.0..200.0).contains(all));
         let storeys = storeys.ok_or_else(|| format!("storeys '{all}'; expected a whole number"))? as u32;
@@ -362,29 +467,52 @@ impl List<'_> {
         let building = self.cell(row, Role::Building).map(|cell| {
             Building::parse(cell).ok_or_else(|| format!("building '{cell}'; expected {expected}"))
         });
-        *place = floors::place(above, storeys, building.transpose()?, known);
+        *place = floors::place(above, storeys, building.transpose()?.or(self.defaults.building), known);
         Ok(())
     }
 
-    /// Why the object of a row is not free to rock.
+    /// Why the object of a row is not free to rock, or not known to be: by columns of anchors, else by what other
+    /// texts say of anchors or floors.
     fn held(&self, row: usize) -> Option<ObjectError> {
-        let mut held = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Held);
-        held.find_map(|at| held_by(&self.grid.headings[at].text, self.grid.value(row, at)?))
+        let cells = |wanted: Role| {
+            let columns = (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted);
+            columns.map(move |at| (&*self.grid.headings[at].text, self.grid.cell(row, at)))
+        };
+        let mut anchors = cells(Role::Held).filter(|(_, cell)| !cell.is_empty()).peekable();
+        let says_nothing = anchors.peek().is_none();
+        let has_floor = self.column(Role::Storey).is_some() || self.defaults.place.level.is_some();
+        let speaks = |cell: &str| {
+            let is_floor =
+                matches!(Storey::parse(cell), Some(Storey::Number(_) | Storey::Above(_) | Storey::Roof));
+            let is_held =
+                joined(cell).split('-').any(|word| synonyms("holds").any(|part| word.starts_with(part)));
+            is_held && says_nothing || is_floor && !has_floor && cell.contains(char::is_alphabetic)
+        };
+        let open = |(heading, cell): (&str, &str)| {
+            let words =
+                format!("{heading} '{cell}': a floor or an anchor? Say so in a column Floor or Anchored");
+            speaks(cell).then_some(ObjectError::Implausible(words))
+        };
+        anchors
+            .find_map(|(heading, cell)| held_by(heading, cell))
+            .or_else(|| cells(Role::Kept).find_map(open))
     }
 }
 
-/// Whether a column that seems to count objects numbers the rows.
-fn numbers_rows(grid: &Grid, column: usize) -> bool {
-    let is_numbered =
-        |numbers: Vec<f64>| numbers.len() > 1 && numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
-    grid.headings[column].name == "number" && grid.numbers(column).is_ok_and(is_numbered)
-}
-
-/// Whether a line above the headings names a unit of lengths other than m.
-fn names_unit_of_length(note: &str) -> bool {
-    note.split([',', ';', '\t']).any(|cell| {
-        let unit = Heading::new(cell.trim()).unit;
-        unit.is_some_and(|unit| unit.quantity == Quantity::Length && unit.si != 1.0)
+/// The unit of lengths that a remark names, other than behind a number: all in mm.
+fn unit_of_remark(note: &str) -> Option<Unit> {
+    let note = normal(note);
+    let words: Vec<&str> =
+        note.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let behind = [""].into_iter().chain(words.iter().copied());
+    let mut units = behind.zip(&words).filter(|(before, word)| {
+        let is_number = before.ends_with(|sign: char| sign.is_ascii_digit());
+        !is_number
+            && (word.len() > 2 || ["cm", "mm", "ft"].contains(word) || *before == "in" && **word == "m")
+    });
+    let unit = units.find_map(|(_, word)| Unit::parse(word).filter(|unit| unit.quantity == Quantity::Length));
+    unit.or_else(|| {
+        Heading::new(&note).unit.filter(|unit| unit.quantity == Quantity::Length && unit.name != "m")
     })
 }
 
@@ -394,7 +522,7 @@ fn held_by(heading: &str, cell: &str) -> Option<ObjectError> {
     let has = |text: &str, meaning: &str| synonyms(meaning).any(|part| text.contains(part));
     let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
     let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
-    if means(cell, "free") || is_loose {
+    if cell.is_empty() || is_missing(cell) || means(cell, "free") || is_loose {
         None
     } else if text.starts_with("no-") || !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
         Some(ObjectError::Implausible(format!("{heading}: '{cell}'; expected yes or no")))

@@ -1,7 +1,10 @@
 //! Words of people's tables, in several languages: data/headings.csv.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::LazyLock;
+
+use unicode_normalization::UnicodeNormalization;
 
 static WORDS: LazyLock<HashMap<&str, Vec<&str>>> = LazyLock::new(|| {
     let lines = include_str!("../../data/headings.csv").lines().filter(|line| !line.starts_with('#'));
@@ -27,10 +30,36 @@ pub fn is_one_of(word: &str, meaning: &str) -> bool {
     synonyms(meaning).any(|known| known == word)
 }
 
+/// Whether all words of a text have one, with a meaning of whatever kind.
+pub fn are_known(text: &str) -> bool {
+    let text = joined(text);
+    !text.is_empty() && text.split('-').all(|word| WORDS.values().flatten().any(|known| *known == word))
+}
+
 /// The letters and digits of a text in lower case, its parts joined by hyphens.
 pub fn joined(text: &str) -> String {
+    let text = normal(text);
     let parts = text.split(|sign: char| !sign.is_alphanumeric()).filter(|part| !part.is_empty());
     parts.collect::<Vec<_>>().join("-").to_lowercase().replace("center", "centre")
+}
+
+/// A text in the form in which it is compared: Unicode's NFKC, with the minus sign and the quotation marks of a
+/// keyboard. The marks of feet and inches are quotation marks too.
+pub fn normal(text: &str) -> Cow<'_, str> {
+    let sign = |sign| match sign {
+        '\u{2010}'..='\u{2015}' | '\u{2212}' => '-',
+        '\u{2018}' | '\u{2019}' | '\u{2032}' => '\'',
+        '\u{201c}' | '\u{201d}' | '\u{2033}' => '"',
+        other => other,
+    };
+    if text.is_ascii() { text.into() } else { text.chars().map(sign).nfkc().collect() }
+}
+
+/// A cell as a number is compared; none with digits that its normal form would take for others: 10\u{b2}, \u{bd}.
+pub fn normal_number(cell: &str) -> Option<Cow<'_, str>> {
+    let is_digit = |sign: char| sign.is_ascii_digit() || ('\u{ff10}'..='\u{ff19}').contains(&sign);
+    let is_other = |sign: char| sign.is_numeric() && !is_digit(sign);
+    (!cell.contains(is_other)).then(|| normal(cell))
 }
 
 /// Words for a vertical component, in capitals.

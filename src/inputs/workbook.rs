@@ -1,30 +1,43 @@
 //! Sheets of workbooks: .xlsx, .xls, .xlsb and .ods.
 
+use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
 
 use calamine::open_workbook_auto_from_rs;
-use calamine::{Cell, Data, DataType, Range, Reader, Sheet, SheetVisible, Sheets, Xlsx, XlsxError};
+use calamine::{Cell, Data, DataType, Range, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
 
-use super::decode::plain;
+use zip::ZipArchive;
+
 use super::error::{InputError, Result, expect_few_cells};
+use super::grid::Source;
+use crate::number::rounded;
 use crate::source::guarded;
 
 pub fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
 }
 
-/// Reads the cells of the sheet with this name, or of the only visible one that has any.
-pub fn cells(bytes: &[u8], name: Option<&str>) -> Result<Range<String>> {
-    let damaged = || Err(InputError::damaged("its cells cannot be read"));
-    expect_few_announced(bytes)?;
-    guarded(|| read(bytes, name)).unwrap_or_else(damaged)
+pub struct Sheet {
+    /// Line of the first row, from 1.
+    pub first_line: usize,
+    pub rows: Range<String>,
+    /// Lines and columns of cells that a merged one repeats.
+    pub repeated: HashSet<(usize, usize)>,
+    pub source: Source,
 }
 
-fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>> {
+/// Reads the sheet with this name, or the only visible one that has any cells.
+pub fn read(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
+    let damaged = || Err(InputError::damaged("its cells cannot be read"));
+    expect_few_announced(bytes)?;
+    guarded(|| find(bytes, name)).unwrap_or_else(damaged)
+}
+
+fn find(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
     let mut filled = Vec::new();
-    let is_visible = |sheet: &Sheet| sheet.visible == SheetVisible::Visible;
+    let is_visible = |sheet: &calamine::Sheet| sheet.visible == SheetVisible::Visible;
     for sheet in all.iter().filter(|sheet| name.map_or(is_visible(sheet), |name| sheet.name == name)) {
         let cells = filled_cells(&mut workbook, &sheet.name)?;
         if !cells.is_empty() {
@@ -32,11 +45,65 @@ fn read(bytes: &[u8], name: Option<&str>) -> Result<Range<String>> {
         }
     }
     match &mut filled[..] {
-        [(_, cells)] => in_range(std::mem::take(cells)),
-        [] if name.is_none() => Ok(Range::empty()),
+        [(name, cells)] => {
+            let mut cells = std::mem::take(cells);
+            if let Sheets::Ods(_) = workbook {
+                expect_no_merged_rows(bytes, name)?;
+            }
+            let repeated = repeat_merged(&mut workbook, name, &mut cells)?;
+            let rows = in_range(cells)?;
+            let (line, column) = rows.start().unwrap_or_default();
+            let repeated = repeated.into_iter().map(|(row, at)| (row as usize + 1, (at - column) as usize));
+            let source = if matches!(workbook, Sheets::Xlsx(_)) { Source::Xlsx } else { Source::Workbook };
+            Ok(Sheet { first_line: line as usize + 1, rows, repeated: repeated.collect(), source })
+        }
+        [] if name.is_none() => Err(InputError::unexpected("an empty workbook", "a table")),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
         _ => Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
     }
+}
+
+/// Repeats merged cells; returns the places of those that repeat one above.
+fn repeat_merged(
+    workbook: &mut Sheets<Cursor<&[u8]>>,
+    sheet: &str,
+    cells: &mut Vec<Cell<String>>,
+) -> Result<Vec<(u32, u32)>> {
+    let Sheets::Xlsx(workbook) = workbook else { return Ok(Vec::new()) };
+    let last = cells.iter().fold((0, 0), |(row, column), cell| {
+        let at = cell.get_position();
+        (at.0.max(row), at.1.max(column))
+    });
+    let (mut repeated, known) = (Vec::new(), cells.len());
+    let texts: HashMap<(u32, u32), usize> = (0..known).map(|at| (cells[at].get_position(), at)).collect();
+    for merged in workbook.merge_cells_by_sheet_name(sheet).map_err(InputError::damaged)? {
+        let Some(&from) = texts.get(&merged.start) else { continue };
+        let text = cells[from].get_value().clone();
+        for row in merged.start.0..=merged.end.0.min(last.0) {
+            for column in merged.start.1..=merged.end.1.min(last.1) {
+                if (row, column) != merged.start && !texts.contains_key(&(row, column)) {
+                    cells.push(Cell::new((row, column), text.clone()));
+                    expect_few_cells(cells.len())?;
+                }
+                repeated.extend((row > merged.start.0).then_some((row, column)));
+            }
+        }
+    }
+    Ok(repeated)
+}
+
+/// Refuses cells of an .ods that are merged over rows: its reader leaves all but the first empty.
+fn expect_no_merged_rows(bytes: &[u8], sheet: &str) -> Result<()> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
+    let content = archive.by_name("content.xml").map_err(InputError::damaged)?;
+    let content = std::io::read_to_string(content).map_err(InputError::damaged)?;
+    let named = content.split("table:name=\"").find(|part| part.starts_with(&format!("{sheet}\"")));
+    let mut spans = named.unwrap_or_default().split("number-rows-spanned=\"").skip(1);
+    if spans.any(|span| !span.starts_with("1\"")) {
+        let expected = "a sheet saved as .xlsx or CSV: of .ods the others are taken as empty";
+        return Err(InputError::unexpected("cells merged over rows", expected));
+    }
+    Ok(())
 }
 
 /// Checks the records of dimensions of an .xls: its reader reserves memory for all cells between.
@@ -94,12 +161,19 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
     }
     let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
     let cells = formulas.into_iter().map(|formula| {
-        let value = match reader.next_cell() {
-            Ok(cell) => cell.map_or(Data::Empty, |cell| cell.get_value().clone().into()),
-            Err(XlsxError::CellError(error)) => Data::String(error),
+        let (value, style) = match reader.next_cell_with_style_id() {
+            Ok(Some((cell, style))) => (cell.get_value().clone().into(), style),
+            Ok(None) => (Data::Empty, 0),
+            Err(XlsxError::CellError(error)) => (Data::String(error), 0),
             Err(error) => return Err(InputError::damaged(error)),
         };
-        Ok(Cell::new(formula.get_position(), text(&value, Some(formula.get_value()))))
+        let format = reader.styles().get(style).and_then(|style| style.number_format.as_ref());
+        let is_percent = format.is_some_and(|format| format.format_code.contains('%'));
+        let shown = match value.as_f64().filter(|_| is_percent) {
+            Some(share) => format!("{}%", rounded(100.0 * share)),
+            None => text(&value, Some(formula.get_value())),
+        };
+        Ok(Cell::new(formula.get_position(), shown))
     });
     cells.collect()
 }
@@ -127,6 +201,6 @@ fn text(cell: &Data, formula: Option<&String>) -> String {
             let (year, month, day, ..) = date.to_ymd_hms_milli();
             format!("{year}-{month:02}-{day:02}")
         }
-        other => other.to_string().trim().chars().map(plain).collect(),
+        other => other.to_string().trim().to_string(),
     }
 }

@@ -125,7 +125,11 @@ impl StructureArgs {
         let is_paper = self.structures.as_deref() == Some(Path::new(PAPER));
         let (mut all, unused) = match &self.structures {
             Some(list) if !is_paper => {
-                let defaults = ListDefaults { ground_floor: self.ground_floor, place: *place };
+                let defaults = ListDefaults {
+                    ground_floor: self.ground_floor,
+                    place: *place,
+                    ..ListDefaults::default()
+                };
                 objects::read(list, reader, &defaults)?
             }
             _ => (self.structure.clone(), Warnings::default()),
