@@ -1,9 +1,9 @@
 """Looks at pages in a headless Chromium: python browser.py PAGE... [--into FOLDER] [--head FILE]
 
-Takes a picture (into FOLDER, else beside the page) at 1280 and 400 pixels, light and dark, and one as printed on A4
-(PDF). Fails on messages of the console, on any request beside the page's own, where an element is wider than its
-column, where a figure is missing, and where a text stands outside its picture or two texts cover each other, on the page
-and in the SVG files of its folder.
+Takes a picture (into FOLDER, else beside the page) at 1280 and 400 pixels, light and dark, and one as printed
+on A4. Fails on messages of the console, on requests beside the page's own, where an element is wider than its
+column, where a figure is missing, and where a text stands outside its picture or covers another, in the SVG
+files of its folder too.
 """
 
 import argparse
@@ -61,15 +61,17 @@ for argument in ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "-
 options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
 browser = webdriver.Chrome(options=options, service=webdriver.ChromeService("/usr/bin/chromedriver"))
 # A scroll bar, which the picture does not show, would cut the right margin off.
-browser.execute_cdp_cmd("Emulation.setScrollbarsHidden", {"hidden": True})
-faults = []
+command, faults = browser.execute_cdp_cmd, []
+command("Emulation.setScrollbarsHidden", {"hidden": True})
+picture = lambda whole: command("Page.captureScreenshot", {"captureBeyondViewport": whole})["data"]
+shot = lambda whole: base64.b64decode(picture(whole))
 for page in (page.resolve() for page in arguments.pages):
     folder = arguments.into or page.parent
-    for width, scheme in [(1280, "light"), (1280, "dark"), (400, "light"), (400, "dark")]:
+    for width, scheme in [(400, "light"), (400, "dark"), (1280, "dark"), (1280, "light")]:
         metrics = {"width": width, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-        browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
-        features = [{"name": "prefers-color-scheme", "value": scheme}]
-        browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"features": features})
+        command("Emulation.setDeviceMetricsOverride", metrics)
+        scheme_is = {"name": "prefers-color-scheme", "value": scheme}
+        command("Emulation.setEmulatedMedia", {"features": [scheme_is]})
         browser.get(page.as_uri())
         found = [f"{page.name}, {width} px: {fault}" for fault in browser.execute_script(FAULTS)]
         faults += [fault for fault in found if fault not in faults]
@@ -80,15 +82,11 @@ for page in (page.resolve() for page in arguments.pages):
                 url = message["params"]["request"]["url"]
                 if url != page.as_uri() and not url.startswith("data:"):
                     faults.append(f"{page.name}: asks for {url}")
-        picture = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": True})["data"]
-        (folder / f"{page.stem}-{width}-{scheme}.png").write_bytes(base64.b64decode(picture))
-        if arguments.head and page == arguments.pages[0].resolve() and (width, scheme) == (1280, "light"):
-            picture = browser.execute_cdp_cmd("Page.captureScreenshot", {"captureBeyondViewport": False})["data"]
-            arguments.head.write_bytes(base64.b64decode(picture))
-    printed = browser.execute_cdp_cmd("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})["data"]
+        (folder / f"{page.stem}-{width}-{scheme}.png").write_bytes(shot(True))
+    if arguments.head and page == arguments.pages[0].resolve():
+        arguments.head.write_bytes(shot(False))
+    printed = command("Page.printToPDF", {"preferCSSPageSize": True, "printBackground": True})["data"]
     (folder / f"{page.stem}-print.pdf").write_bytes(base64.b64decode(printed))
-    metrics = {"width": 1280, "height": 900, "deviceScaleFactor": 1, "mobile": False}
-    browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", metrics)
     for file in sorted(page.with_suffix("").glob("*.svg")):
         browser.get(file.as_uri())
         faults += [f"{file.name}: {fault}" for fault in browser.execute_script(FAULTS)]

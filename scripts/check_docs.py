@@ -1,4 +1,4 @@
-"""Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON] [PAGE...]
+"""Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON]
 
     ```sh         run, and must end with exit code 0
     ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
@@ -9,6 +9,7 @@ Each page has a folder of its own with data, scripts, python and pipeline.yaml o
 """
 
 import argparse
+import functools
 import os
 import pathlib
 import re
@@ -27,48 +28,39 @@ def missing(shown, output):
     return next((line for line in lines(shown) if line not in found), None)
 
 
-def run(command, folder, environment):
-    """The exit code of a command, and what it prints."""
-    both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
-    done = subprocess.run(command, cwd=folder, env=environment, **both)
-    return done.returncode, done.stdout
-
-
 def faults(page, environment, python):
     """What is wrong with a page."""
     text = page.read_text()
     blocks = [(match[1], match[2], text[: match.start()].count("\n") + 1) for match in BLOCK.finditer(text)]
     with tempfile.TemporaryDirectory() as folder:
+        both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
+        run = functools.partial(subprocess.run, cwd=folder, env=environment, **both)
         for name in ["data", "scripts", "python", "pipeline.yaml"]:
             os.symlink(ROOT / name, pathlib.Path(folder) / name)
-        output = None
+        done = None
         for language, content, line in blocks:
             if language == "sh":
-                code, output = run(["bash", "-euo", "pipefail", "-c", content], folder, environment)
-                if code:
-                    yield f"line {line}: exit code {code}\n{output}"
-            elif language == "text" and output is not None:
-                other = missing(content, output)
-                if other is not None:
-                    yield f"line {line}: '{other}' is not in the output\n{output}"
-            if language not in ("sh", "text"):
-                output = None
+                done = run(["bash", "-euo", "pipefail", "-c", content])
+                if done.returncode:
+                    yield f"line {line}: exit code {done.returncode}\n{done.stdout}"
+            elif language != "text":
+                done = None
+            elif done and (other := missing(content, done.stdout)) is not None:
+                yield f"line {line}: '{other}' is not in the output\n{done.stdout}"
         of_python = (content for language, content, _ in blocks if language == "python")
         scripts = [content for content in of_python if not content.startswith("# not run")]
-        if python and scripts:
-            code, output = run([python, "-c", "\n".join(scripts)], folder, environment)
-            if code:
-                yield f"python: exit code {code}\n{output}"
+        done = run([python, "-c", "\n".join(scripts)]) if python and scripts else None
+        if done and done.returncode:
+            yield f"python: exit code {done.returncode}\n{done.stdout}"
 
 
 parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 parser.add_argument("rockfrag", type=pathlib.Path)
 parser.add_argument("--python", type=pathlib.Path)
-parser.add_argument("pages", nargs="*", type=pathlib.Path)
-options = parser.parse_intermixed_args()
+options = parser.parse_args()
 path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
 environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
-pages = options.pages or [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
+pages = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
 python = options.python and options.python.absolute()
 wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python)]
 if wrong:

@@ -1,13 +1,14 @@
 """Holds exports against `evaluate`: python check_exports.py ROCKFRAG openquake|pelicun
 
-ROCKFRAG is the binary. OpenQuake's own reader takes the NRML, its own fragility functions give the probabilities,
-and these must equal those of `evaluate`, averaged over PGV/PGA, to 1e-5 at 20 levels of PGA and of PGV that any motion
-has, and be exactly 0 below uplift. At each of 8 levels pelicun draws 100,000 capacities; the shares of the damage
-states must equal our probabilities within five standard errors of such a sample. Needs openquake.engine or pelicun
-(scripts/check_exports.sh makes a place for each).
+OpenQuake's own reader and fragility functions give the probabilities, which must equal those of `evaluate`,
+averaged over PGV/PGA, to 1e-5 at 20 levels of PGA and of PGV that any motion has, and be 0 below uplift. At
+each of 8 levels pelicun draws 100,000 capacities; the shares of the damage states must equal our
+probabilities within five standard errors. Needs openquake.engine or pelicun (scripts/check_exports.sh makes a
+place for each).
 """
 
 import csv
+import functools
 import json
 import math
 import pathlib
@@ -18,25 +19,18 @@ import warnings
 
 import numpy as np
 import pandas as pd
-
 from common import call
 
 ALPHA = 0.20
-UPLIFT_G = math.tan(ALPHA)
-SAMPLES = 100_000
-UNITS = {"PGA": "g", "PGV": "mps"}
+UPLIFT_G, SAMPLES, UNITS = math.tan(ALPHA), 100_000, {"PGA": "g", "PGV": "mps"}
 rockfrag, program = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
 structure = f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"
-
-
-def run(subcommand, *arguments):
-    """What rockfrag prints."""
-    return call(rockfrag, subcommand, structure, *arguments)
+run = functools.partial(call, rockfrag)
 
 
 def reached(im, intensity):
     """The probability of reaching LS1, LS2 and LS3 at this PGA (g) or PGV (m/s)."""
-    (row,) = csv.DictReader(run("evaluate", f"--{im}={intensity!r}", "--format=csv").splitlines())
+    (row,) = csv.DictReader(run("evaluate", structure, f"--{im}={intensity!r}", "--format=csv").splitlines())
     rocking = 1 - float(row["p_nr"])
     return [rocking, float(row["p_f"] or 0), rocking * float(row["p_ro"] or 0)]
 
@@ -47,7 +41,7 @@ def openquake(im, folder):
     from openquake.risklib import read_nrml  # noqa: F401, registers the reader of fragility models
 
     file = folder / f"{im}.xml"
-    run("export", "--to=openquake", f"--over={im}", f"--out={file}")
+    run("export", structure, "--to=openquake", f"--over={im}", f"--out={file}")
     model = nrml.to_python(str(file))
     ((imt, _), functions), = model.items()
     assert imt == im.upper(), imt
@@ -57,10 +51,9 @@ def openquake(im, folder):
     levels = levels[levels < most]
     below = [0.5 * UPLIFT_G, 0.99 * UPLIFT_G] if im == "pga" else []
     for intensity in [*below, *levels[np.linspace(1, len(levels) - 1, 20).astype(int)]]:
-        iml = np.array([unit * intensity])
         expected = dict(zip(["LS1", "LS2", "LS3"], reached(im, float(intensity))))
         for function in functions.build(model.limitStates):
-            theirs = float(function(iml)[0])
+            theirs = float(function(np.array([unit * intensity]))[0])
             if im == "pga" and intensity < UPLIFT_G and theirs != 0:
                 sys.exit(f"{file.name}: {function.limit_state} is {theirs} below uplift")
             difference = max(difference, abs(theirs - expected[function.limit_state]))
@@ -92,8 +85,8 @@ def theirs(table, component, peak, intensity):
 def pelicun(im, folder):
     """The largest difference in standard errors."""
     table = folder / f"{im}.csv"
-    run("export", "--to=pelicun", f"--over={im}", f"--out={table}")
-    component, = (name for name in json.loads(table.with_suffix(".json").read_text()) if not name.startswith("_"))
+    run("export", structure, "--to=pelicun", f"--over={im}", f"--out={table}")
+    component = next(name for name in json.loads(table.with_suffix(".json").read_text()) if name[0] != "_")
     (row,) = csv.DictReader(table.read_text().splitlines())
     levels = [float(level) for level in row["LS2-Theta_0"].split("|")[0].split(",")]
     worst = 0.0

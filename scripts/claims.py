@@ -92,14 +92,13 @@ def of_fits(of, pro, pex):
     note("a", "log score of ln demand, one plane less best measure", "> 0", of, one - best)
     note("b", "log score of ln demand, two planes less one", "> 0", of, two - one)
     note("c", "IM4 at which the planes meet", "= 1.3", of, max(fit["transition_found"] or 0 for fit in pex))
-    score = {(fit["im_x"], fit["im_y"]): fit["held_out_log_score"] for fit in pro if fit["held_out_log_score"]}
-    im4, im5, hybrid = (score.get(of) for of in (("im4", None), ("im5", None), ("im4", "im3_inv")))
-    if im4 and im5 and hybrid:
-        best = max(of_fit for (_, im_y), of_fit in score.items() if not im_y)
-        note("a", "log score of P_ro, hybrid less best measure", "> 0", of, hybrid - best)
-        note("e", "log score of P_ro, IM5 less IM4", "> 0", of, im5 - im4)
-        auc = {(fit["im_x"], fit["im_y"]): fit["auc"] for fit in pro}
-        note("e", "AUC, IM5 less IM4", "> 0", of, auc["im5", None] - auc["im4", None])
+    fits = {fit["im_x"] + (fit["im_y"] or ""): fit for fit in pro if fit["held_out_log_score"]}
+    if {"im4", "im5", "im4im3_inv"} <= fits.keys():
+        score = {name: fit["held_out_log_score"] for name, fit in fits.items()}
+        best = max(score[name] for name, fit in fits.items() if not fit["im_y"])
+        note("a", "log score of P_ro, hybrid less best measure", "> 0", of, score["im4im3_inv"] - best)
+        note("e", "log score of P_ro, IM5 less IM4", "> 0", of, score["im5"] - score["im4"])
+        note("e", "AUC, IM5 less IM4", "> 0", of, fits["im5"]["auc"] - fits["im4"]["auc"])
 
 
 def of_seeds(of, here, there):
@@ -171,21 +170,17 @@ for suite in SUITES:
 keys = ["letter", "quantity", "claimed", "suite", "structure"]
 rows = pl.DataFrame(found, schema=[*keys, "value"], orient="row").group_by(keys, maintain_order=True)
 rows = rows.agg(mean=pl.mean("value"), sd=pl.std("value"), n=pl.len())
-rows = rows.join(CLAIMS, "letter").sort(
-    "letter", "suite", "structure", descending=[False, True, True], maintain_order=True
-)
+order = {"descending": [False, True, True], "maintain_order": True}
+rows = rows.join(CLAIMS, "letter").sort("letter", "suite", "structure", **order)
 reach = rows["sd"] * (1 + 1 / rows["n"]).sqrt() * t.ppf(0.975, rows["n"] - 1)
 side, value = col("claimed").str.extract(r"^(\S+)"), col("claimed").str.extract(r"([\d.]+)").cast(float)
-is_on_side = {
-    ">": col("low") > value, "<": col("high") < value, "<=": col("low") <= value,
-    "=": value.is_between(col("low"), col("high")),
-}  # fmt: skip
-rows = rows.with_columns(low=rows["mean"] - reach, high=rows["mean"] + reach).with_columns(
-    supports=pl.coalesce(pl.when(side == of).then(holds) for of, holds in is_on_side.items())
-)
+is_on_side = {">": col("low") > value, "<": col("high") < value, "<=": col("low") <= value}
+is_on_side["="] = value.is_between(col("low"), col("high"))
+supports = pl.coalesce(pl.when(side == of).then(holds) for of, holds in is_on_side.items())
+rows = rows.with_columns(low=rows["mean"] - reach, high=rows["mean"] + reach).with_columns(supports=supports)
 supporting, tested = col("supports").sum().over("letter"), col("supports").count().over("letter")
-verdict = pl.when(supporting == tested).then(pl.lit("holds")).when(supporting == 0).then(pl.lit("does not hold"))
-verdict = verdict.otherwise(pl.lit("holds in part"))
+none, some = pl.lit("does not hold"), pl.lit("holds in part")
+verdict = pl.when(supporting == tested).then(pl.lit("holds")).when(supporting == 0).then(none).otherwise(some)
 rows = rows.with_columns(verdict=verdict, supported=pl.format("{} of {}", supporting, tested))
 columns = "claim", *keys[1:], "mean", "low", "high", "supports", "verdict", "figure"
 rows.select(columns).write_csv(ROOT / "core/data/claims.csv")

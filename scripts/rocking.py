@@ -1,8 +1,6 @@
 """Rocking about two edges in turn, by Taylor series in small steps (theta'' = -p_i^2 (sin(alpha_i - |theta|) + ...),
 impacts by conservation of angular momentum about the new edge), in machine code of numba."""
 
-import math
-
 import numpy as np
 from numba import njit
 
@@ -11,14 +9,11 @@ FREE, LONGEST_S, REST, TAIL_S = -1.0, 0.005, 1e-5, 8.0
 
 def body(width, height, offset):
     """(alpha, p, eta of the impact onto it) of the edge that the centre of mass is nearer to, and the other."""
-    b, h, inertia = width / 2, height / 2, (width**2 + height**2) / 12
-    near, far = b - offset * b, b + offset * b
-    sides = []
-    for here, other in ((near, far), (far, near)):
-        eta = (inertia + h * h - here * other) / (inertia + here * here + h * h)
-        radius = math.hypot(here, h)
-        sides.append((math.atan(here / h), math.sqrt(9.81 * radius / (inertia + radius**2)), eta))
-    return sides
+    h, inertia = height / 2, (width**2 + height**2) / 12
+    here = width / 2 * np.array([1 - offset, 1 + offset])
+    eta = (inertia + h * h - here * here[::-1]) / (inertia + here * here + h * h)
+    radius = np.hypot(here, h)
+    return np.stack([np.arctan(here / h), np.sqrt(9.81 * radius / (inertia + radius**2)), eta], axis=1)
 
 
 @njit(cache=True)
@@ -42,8 +37,7 @@ def impact(r, w, g, dg, ddg, h):
 @njit(cache=True)
 def demand(a, dt, sides, rebound):
     """|theta|max / alpha, infinite where it overturns. a: acceleration over g; sides: 2 x (alpha, p, eta), theta > 0
-    turns about side 0. With a wall, an impact turns the velocity w of side 0 into -rebound w; else it goes on, about
-    the other side."""
+    turns about side 0. With a wall, an impact turns the velocity w of side 0 into -rebound w."""
     low, high, peak, side, r, w = -np.tan(sides[0, 0]), np.tan(sides[1, 0]), 0.0, -1, 0.0, 0.0
     for k in range(len(a) - 1):
         t, slope = 0.0, (a[k + 1] - a[k]) / dt

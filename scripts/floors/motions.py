@@ -14,28 +14,18 @@ from common import fema, peaks  # noqa: E402, F401
 from rocking import rested  # noqa: E402, F401
 
 
-def components():
-    """(name, earthquake, magnitude, acceleration in m/s2, time step in s) of each component of FEMA P695."""
-    return ((name, key(earthquake, mw), mw, a, dt) for _, name, earthquake, mw, dt, a in fema())
-
-
 def records(imported):
-    """The same of these and of the imported ones."""
-    yield from components()
-    columns = "motion_id", "earthquake", "mw", "acceleration_m_s2", "dt_s"
-    for name, earthquake, mw, a, dt in pl.read_parquet(imported).select(columns).rows():
-        yield name, key(earthquake, mw), mw, np.asarray(a), dt
+    """(name, earthquake by one name in both sources, magnitude, acceleration in m/s2, time step) of all."""
+    columns = "motion_id", "earthquake", "mw", "dt_s", "acceleration_m_s2"
+    of_fema, others = (of[1:] for of in fema()), pl.read_parquet(imported).select(columns).rows()
+    for name, earthquake, mw, dt, a in [*of_fema, *others]:
+        yield name, f"{earthquake[:4].upper()} {mw:.1f}", mw, np.asarray(a), dt
 
 
-def key(earthquake, magnitude):
-    """One name of an earthquake in both sources."""
-    return f"{earthquake[:4].upper()} {magnitude:.1f}"
-
-
-def absolute(acceleration, dt, period, damping=0.05):
-    """Absolute acceleration of an oscillator at rest under lines between samples."""
+def absolute(acceleration, dt, period):
+    """Absolute acceleration of an oscillator at rest, damped by 5 %, under lines between samples."""
     w = 2 * np.pi / period
-    pull = [-w * w, -2 * damping * w]
+    pull = [-w * w, -0.1 * w]
     system = [np.array(matrix, float) for matrix in ([[0, 1], pull], [[0], [-1]], [pull], [[0]])]
     b, a = ss2tf(*cont2discrete(system, dt, method="foh")[:4])
     return lfilter(b[0], a, acceleration)

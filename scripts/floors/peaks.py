@@ -27,18 +27,17 @@ def rows(imported):
         pga, pgv = motions.peaks(a, dt)
         for period in PERIODS:
             pfa, pfv = motions.peaks(motions.floors(a, dt, period, LEVELS), dt)
+            u = np.log(period * pga / (2 * np.pi * pgv))
             for z, fa, fv in zip(LEVELS, pfa, pfv):
-                u = np.log(period * pga / (2 * np.pi * pgv))
-                yield earthquake, period, z, u, np.log(fa / pga), np.log(fv / pgv)
+                yield earthquake, z, u, np.log(fa / pga), np.log(fv / pgv)
 
 
 def median(b, u, level):
     """ln(floor/ground) and the resonant share B/(A^2 + B): n each. u, level: n."""
     beta, k, d, e, l, h = b[:6]
-    shares = motions.participation(level[:, None])
-    ui = u[:, None] - np.log(2 * np.arange(1, 6) - 1)
-    r = 1 / (1 + np.exp(np.clip(k * (ui - beta), -500, 500)))
+    shares, ui = motions.participation(level[:, None]), u[:, None] - np.log(2 * np.arange(1, 6) - 1)
     D = d / (np.exp(-l * (ui - e)) + np.exp(h * (ui - e)))
+    r = 1 / (1 + np.exp(np.clip(k * (ui - beta), -500, 500)))
     A, B = 1 - (shares * (1 - r)).sum(axis=1), (shares**2 * D**2).sum(axis=1)
     return 0.5 * np.log(A**2 + B), B / (A**2 + B)
 
@@ -57,7 +56,7 @@ def fit(u, level, y, start):
 
 
 def main():
-    names = ["earthquake", "period", "level", "u", "pfa", "pfv"]
+    names = ["earthquake", "level", "u", "pfa", "pfv"]
     table = pl.DataFrame(list(rows(sys.argv[1])), names, orient="row")
     earthquakes = table["earthquake"].unique().sort()
     print(len(table) // len(PERIODS) // len(LEVELS), "components of", len(earthquakes), "earthquakes")

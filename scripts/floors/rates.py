@@ -16,8 +16,7 @@ STRONGEST_M_S = 5.0
 LEVELS_G = np.geomspace(0.1, 1.6, 8)
 OBJECTS = [(0.3, 0.9), (0.3, 1.2), (0.4, 1.6), (0.5, 1.8), (0.6, 1.8), (0.6, 2.2), (0.8, 2.2), (0.8, 2.6),
            (1.0, 3.0), (1.2, 4.0), (0.25, 0.8), (0.45, 2.0)]  # fmt: skip
-rockfrag, imported, folder = sys.argv[1:]
-folder = pathlib.Path(folder)
+rockfrag, imported, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:])
 
 
 def call(*arguments):
@@ -27,8 +26,8 @@ def call(*arguments):
 
 
 def rate(p_of_motions):
-    p_of_levels = peaks.with_columns(p=p_of_motions).group_by("k").agg(pl.col("p").mean()).sort("k")["p"]
-    return -np.diff(LEVELS_G**-2.2, append=0.0) @ p_of_levels.to_numpy()
+    of_levels = peaks.with_columns(p=p_of_motions).group_by("k").agg(pl.col("p").mean()).sort("k")
+    return -np.diff(LEVELS_G**-2.2, append=0.0) @ of_levels["p"].to_numpy()
 
 
 def predicted(width, height, *floor):

@@ -23,8 +23,8 @@ from surface import LIMITS, Surface  # noqa: E402
 FOLDS = 8
 
 
-def on_floors(imported):
-    rng = np.random.default_rng(42)
+def on_floors(imported, out):
+    rng, rows = np.random.default_rng(42), []
     for name, earthquake, mw, ground, dt in motions.records(imported):
         for _ in range(8):
             period, level = np.exp(rng.uniform(np.log(0.1), np.log(3.0))), rng.uniform(0.1, 1.0)
@@ -32,32 +32,34 @@ def on_floors(imported):
             pga, pgv = motions.peaks(a, dt)
             a = motions.rested(a, dt, 3 * period / (2 * np.pi * 0.05))
             motion_id = f"{name}|{earthquake}|{mw}|{pga:.6g}|{pgv:.6g}|{period:.6g}|{level:.6g}"
-            yield motion_id, float(dt), mw, motions.floors(a, dt, period, [level])[0].astype(np.float32)
+            (floor,) = motions.floors(a, dt, period, [level])
+            rows.append((motion_id, float(dt), mw, floor.astype(np.float32)))
+    columns = ["motion_id", "dt_s", "mw", "acceleration_m_s2"]
+    pl.DataFrame(dict(zip(columns, zip(*rows)))).write_parquet(out)
 
 
 def read(file):
     """Cases that rock, with the earthquake and the floor that the id of a motion names."""
-    part = lambda k: pl.col("motion_id").str.split("|").list.get(k)
-    cases = pl.read_parquet(file).filter(pl.col("im4") > 1.0).with_columns(
-        cluster=part(1), mw=part(2).cast(float), period=part(5).cast(float), level=part(6).cast(float),
-        overturned=pl.col("outcome") == "overturning", pga=part(3).cast(float), pgv=part(4).cast(float),
-    )  # fmt: skip
+    cluster, *numbers = (pl.col("motion_id").str.split("|").list.get(k) for k in range(1, 7))
+    numbers = {name: of.cast(float) for name, of in zip(("mw", "pga", "pgv", "period", "level"), numbers)}
+    cases = pl.read_parquet(file).filter(pl.col("im4") > 1.0).with_columns(cluster=cluster, **numbers)
     u = (pl.col("period") * pl.col("pga") / (2 * np.pi * pl.col("pgv"))).log()
     u, level = cases.select(u=u, level="level").to_numpy().T
-    return cases.with_columns(share=peaks.median(peaks.START["pfv"], u, level)[1])
+    share, overturned = peaks.median(peaks.START["pfv"], u, level)[1], pl.col("outcome") == "overturning"
+    return cases.with_columns(share=share, overturned=overturned)
 
 
 def of_limit(surface, event, cases, limit):
     cases = counted(event, cases, limit)
     z = apply(surface.prior(event, "recorded", limit), surface.parts(event, "recorded", cases))
-    return cases.with_columns(z=z)
+    return cases.with_columns(z=z).filter(pl.col("z").is_finite())
 
 
 def terms(event, cases):
     """f, f ln(p T1) and, of P_ex, f ln(limit/0.1): n x 2 or 3."""
-    narrow, limit = (pl.col("p_rad_s") * pl.col("period")).log(), (pl.col("limit") / 0.1).log()
-    columns = {"a": pl.lit(1.0), "b": narrow} | ({"h": limit} if event == "pex" else {})
-    return cases.select(**{name: pl.col("share") * factor for name, factor in columns.items()}).to_numpy()
+    p, period, limit, f = cases.select("p_rad_s", "period", "limit", "share").to_numpy().T
+    terms = [f, f * np.log(p * period), f * np.log(limit / 0.1)]
+    return np.stack(terms if event == "pex" else terms[:2], axis=1)
 
 
 def fit(table, responses):
@@ -65,17 +67,12 @@ def fit(table, responses):
     names = floors["cluster"].unique().sort()
     fold_of = dict(zip(names, np.random.default_rng(2).permutation(len(names)) % FOLDS))
     for event, limits in LIMITS.items():
-        cases = pl.concat([of_limit(surface, event, floors, limit) for limit in limits]).filter(pl.col("z").is_finite())
+        cases = pl.concat([of_limit(surface, event, floors, limit) for limit in limits])
         z, happened = cases["z"].to_numpy(), cases["happened"].to_numpy()
         b, left = added_left_out(z, terms(event, cases), happened, cases["cluster"].replace_strict(fold_of).to_numpy())
         scores = (np.round(-loss_of(logit, happened) / len(z), 4) for logit in (z, left))
         print(event, b.round(3), "log score as on the ground and with earthquakes left out:", *scores)
 
 
-if __name__ == "__main__":
-    what, *files = sys.argv[1:]
-    if what == "fit":
-        fit(*files)
-    else:
-        columns = ["motion_id", "dt_s", "mw", "acceleration_m_s2"]
-        pl.DataFrame(dict(zip(columns, zip(*on_floors(files[0]))))).write_parquet(files[1])
+what, *files = sys.argv[1:]
+{"motions": on_floors, "fit": fit}[what](*files)

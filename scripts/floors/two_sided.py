@@ -1,6 +1,5 @@
-"""How often bodies with the centre of mass off the middle overturn, and the symmetric block of their weaker
-side; and how often an object falls in either of two directions under both components of a record: python
-two_sided.py
+"""Bodies with the centre of mass off the middle and the block of their weaker side; falls in either of two
+directions under both components of a record: python two_sided.py
 
 FEMA P695's 100 components, both polarities, four scales, 12 bodies, offsets of .1 to .4 of the half width. Its 50
 pairs, 12 objects (width, depth, height): over eight scales of a hazard that falls with the power 2.2 the rate of falls
@@ -8,7 +7,6 @@ in both directions as if independent, over that of either. Needs numba.
 """
 
 import itertools
-import math
 
 import numpy as np
 
@@ -25,15 +23,12 @@ OBJECTS = [(0.3, 0.4, 0.9), (0.3, 0.3, 1.2), (0.4, 0.6, 1.6), (0.5, 0.5, 1.8), (
 OF_PAIRS = np.geomspace(0.25, 3.0, 8)
 
 
-def weaker(width, height, offset):
-    (alpha, p, eta), (_, _, other) = body(width, height, offset)
-    return [(alpha, p, math.sqrt(eta * other))] * 2
-
-
-records = [(rested(a / 9.81, dt), dt) for *_, a, dt in motions.components()]
+records = [(rested(a / 9.81, dt), dt) for *_, dt, a in motions.fema()]
 counts = np.zeros((len(SIZES), len(OFFSETS), len(SCALES), 2))
 for (i, size), (j, offset), (k, scale) in itertools.product(*map(enumerate, (SIZES, OFFSETS, SCALES))):
-    two, one = np.array(body(*size, offset)), np.array(weaker(*size, offset))
+    two = body(*size, offset)
+    # The weaker side, with the mean of both etas.
+    one = np.array([(*two[0, :2], np.sqrt(two[0, 2] * two[1, 2]))] * 2)
     for a, dt in records:
         found = [np.isinf(demand(sign * scale * a, dt, two, FREE)) for sign in (1.0, -1.0)]
         counts[i, j, k] += sum(found), 2 * np.isinf(demand(scale * a, dt, one, FREE))
@@ -45,7 +40,7 @@ for low, high in ((0.2, 0.95), (0.05, 0.2), (0.005, 0.05)):
 
 weights, ratios = -np.diff(OF_PAIRS**-2.2, append=0.0), []
 for width, depth, height in OBJECTS:
-    sides = [np.array(body(side, height, 0.0)) for side in (width, depth)]
+    sides = [body(side, height, 0.0) for side in (width, depth)]
     of_scale = lambda a, dt, scale: [np.isinf(demand(scale * a, dt, side, FREE)) for side in sides]
     fell = np.array([[of_scale(a, dt, scale) for scale in OF_PAIRS] for a, dt in records])
     # Of each scale: pair, component and side.

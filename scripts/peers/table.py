@@ -1,7 +1,7 @@
 """The table of speeds, rockfrag beside its peers, as Markdown: python scripts/peers/table.py ROCKFRAG
 
-Needs numpy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers and the
-solver run on one core, the solver by `cargo bench --bench speed`.
+Needs numpy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers
+and the solver run on one core, the solver by `cargo bench --bench speed`. Of a peer: table.py PEER FILE.
 """
 
 import json
@@ -12,18 +12,68 @@ import subprocess
 import sys
 import tempfile
 import time
+import warnings
 
-HERE = pathlib.Path(__file__).parent
-ROCKFRAG = pathlib.Path(sys.argv[1]).resolve()
+import numpy as np
+import pyarrow.dataset  # noqa: F401
+import pyarrow.parquet as pq
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 REPEAT = 5
-# The first read in a process pays for the memory that it gets from the system.
-READ = """
-import sys, time, pyarrow.dataset, pyarrow.parquet
-start = time.perf_counter()
-pyarrow.parquet.read_table(sys.argv[1])
-print(time.perf_counter() - start)
-"""
+MEASURES = ("im1", "im2", "im3", "im4", "im5", "im6")
+
+
+def read(file):
+    """Seconds of the first read in a process, which pays for the memory that it gets from the system."""
+    start = time.perf_counter()
+    pq.read_table(file)
+    return time.perf_counter() - start
+
+
+def rocking(file):
+    """Milliseconds a motion of a solver in Python written for speed, on one thread, once it is compiled: the
+    paper's electrical equipment under all motions, each with rest behind it."""
+    from rocking import FREE, demand, rested
+
+    sides, names = np.array([[0.20, 2.5, 0.92]] * 2), ["dt_s", "acceleration_m_s2"]
+    columns = (column.to_pylist() for column in pq.read_table(file, columns=names).columns)
+    motions = [(rested(np.array(acceleration) / 9.81, dt), dt) for dt, acceleration in zip(*columns)]
+    demand(*motions[0], sides, FREE)  # compiles
+    start = time.process_time()
+    for motion in motions:
+        demand(*motion, sides, FREE)
+    return 1e3 * (time.process_time() - start) / len(motions)
+
+
+def fits(file):
+    """Seconds of the fits by suite and structure: the demand in safe rocking on each measure and on both planes
+    (OLS), overturning on each measure and on the hybrid (probit), with covariance."""
+    import statsmodels.api as sm
+
+    warnings.simplefilter("ignore")
+    np.seterr(all="ignore")
+    table = pq.read_table(file, columns=["suite", "structure", "outcome", "edp", *MEASURES])
+    columns = {name: table[name].to_numpy(zero_copy_only=False) for name in table.column_names}
+    groups = np.char.add(columns["suite"].astype(str), columns["structure"].astype(str))
+    start = time.perf_counter()
+    for group in np.unique(groups):
+        rows = groups == group
+        ln = {name: np.log(columns[name][rows].astype(float)) for name in ("edp", *MEASURES)}
+        outcome, below = columns["outcome"][rows], ln["im4"] < np.log(1.3)
+        safe, rocks = outcome == "safe_rocking", outcome != "no_rocking"
+        sides, alone = [(ln["im4"] >= 0) & below, ~below], [(name,) for name in MEASURES]
+        planes = [(("im4", "im3"), safe & side) for side in sides]
+        for measures, chosen in [(one, safe) for one in alone] + planes:
+            design = sm.add_constant(np.column_stack([ln[name] for name in measures]))
+            chosen = chosen & np.isfinite(design).all(axis=1) & np.isfinite(ln["edp"])
+            sm.OLS(ln["edp"][chosen], design[chosen]).fit().cov_params()
+        for measures in [*alone, ("im4", "im3")]:
+            design = sm.add_constant(np.column_stack([ln[name] for name in measures]))
+            chosen = rocks & np.isfinite(design).all(axis=1)
+            event = (outcome[chosen] == "overturning").astype(float)
+            sm.Probit(event, design[chosen]).fit(disp=0, maxiter=100).cov_params()
+    return time.perf_counter() - start
 
 
 def run(*command, environment=None):
@@ -34,40 +84,39 @@ def run(*command, environment=None):
     return time.perf_counter() - start, done.stdout, int(done.stderr.split()[-1]) / 1e3
 
 
-def peer(name, *arguments):
-    """The figures of a peer."""
-    script = ["-c", READ] if name == "pyarrow" else [HERE / f"{name}.py"]
-    return json.loads(run("taskset", "-c", 0, sys.executable, *script, *arguments, environment=ONE_THREAD)[1])
+def peer(name, file):
+    """The figure of a peer, in a process of its own."""
+    command = "taskset", "-c", 0, sys.executable, __file__, name, file
+    return float(run(*command, environment=ONE_THREAD)[1])
 
 
-def row(work, ours, against, theirs, ratio):
-    print(f"| {work} | {ours} | {against} | {theirs} | {ratio:.3g} |")
-
-
+row = lambda *cells: print("|", *(f"{cell} |" for cell in cells[:-1]), f"{cells[-1]:.3g} |")
+PEERS = {"read": read, "rocking": rocking, "fits": fits}
+if sys.argv[1] in PEERS:
+    sys.exit(print(PEERS[sys.argv[1]](sys.argv[2])))
+ROCKFRAG = pathlib.Path(sys.argv[1]).resolve()
 with tempfile.TemporaryDirectory() as folder:
     at = lambda name: pathlib.Path(folder) / f"{name}.parquet"
-    make = lambda samples, name: (
-        run(ROCKFRAG, "sample-scenarios", "--samples", samples, "--out", at("scenarios"), "--force"),
-        run(ROCKFRAG, "synthesize-motions", "--suite", "csgm", "--in", at("scenarios"), "--out", at(name)),
-    )
-    simulate = lambda name: run(
-        ROCKFRAG, "simulate", "--p=2.5", "--alpha=.2", "--eta=.92", "--in", at(name), "--out", at("responses"), "--force"
-    )
-    make(100, "motions")
+    tool = lambda name, out, *options: run(ROCKFRAG, name, "--out", at(out), "--force", *options)
+    csgm = lambda name: tool("synthesize-motions", name, "--suite=csgm", "--in", at("scenarios"))
+    size = "--p=2.5", "--alpha=.2", "--eta=.92"
+    simulate = lambda name: tool("simulate", "responses", *size, "--in", at(name))
+    tool("sample-scenarios", "scenarios", "--samples=100")
+    csgm("motions")
     print("| work | rockfrag | against | theirs | ratio |\n|---|---|---|---|---|")
-    pairs = [(simulate("motions")[0], peer("pyarrow", at("motions"))) for _ in range(REPEAT)]
+    pairs = [(simulate("motions")[0], peer("read", at("motions"))) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
     row("simulate, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
     solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
-    theirs = peer("rocking_numba", at("motions"))["ms_a_motion"]
-    ours = solver_us / 1e3
+    ours, theirs = solver_us / 1e3, peer("rocking", at("motions"))
     row("solver, one core, a motion", f"{ours:.4f} ms", "Numba, Taylor series", f"{theirs:.3f} ms", theirs / ours)
-    run(ROCKFRAG, "simulate", "--structures", "paper", "--in", at("motions"), "--out", at("paper"))
-    fit = lambda name: run(ROCKFRAG, name, "--all", "--threads=1", "--in", at("paper"), "--out", at(name), "--force")[0]
-    pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits_statsmodels", at("paper"))["fits_s"]) for _ in range(REPEAT)]
+    tool("simulate", "paper", "--structures=paper", "--in", at("motions"))
+    fit = lambda name: tool(name, name, "--all", "--threads=1", "--in", at("paper"))[0]
+    pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits", at("paper"))) for _ in range(REPEAT)]
     ours, theirs = (statistics.median(side) for side in zip(*pairs))
     row("all fits, one core", f"{ours:.3f} s", "statsmodels, the fits alone", f"{theirs:.3f} s", theirs / ours)
     small = simulate("motions")[2]
-    make(1000, "ten")
+    tool("sample-scenarios", "scenarios", "--samples=1000")
+    csgm("ten")
     large = simulate("ten")[2]
     row("simulate 35,000 motions, memory", f"{large:.0f} MB", "3500 motions", f"{small:.0f} MB", large / small)

@@ -1,10 +1,10 @@
-"""Data for the fits and the scores of measures, and other programs' answers: python fits.py core/tests/reference/fits
+"""Data for the fits and the scores of measures, and other programs' answers: python fits.py
+core/tests/reference/fits
 
 cases.csv has two measures, a demand and an event, 20 rows a cell; nearly_separated.csv classes that barely
-overlap, so that the slope is steep and Newton's steps are long; capacities.csv samples of overturning
-intensities, and the limits of their median and dispersion by Student's t and chi squared. In the scores the
-measures are im4 = exp(x) and im3 = exp(y), cell c falls into fold c mod 10, and the demand breaks at IM4 = 1.3.
-Needs scipy, statsmodels and pyFragility.
+overlap; capacities.csv overturning intensities, and the limits of their median and dispersion by Student's t
+and chi squared. In the scores the measures are im4 = exp(x) and im3 = exp(y), cell c falls into fold c mod
+10, and the demand breaks at IM4 = 1.3. Needs scipy, statsmodels and pyFragility.
 """
 
 import pathlib
@@ -56,9 +56,8 @@ for name, columns in [("x", [x]), ("xy", [x, y])]:
         answers |= {f"probit_{name}_b{k}": b, f"probit_{name}_se{k}": se}
     answers[f"probit_{name}_llf"] = probit.llf
     # Curves: clustered errors.
-    other = pf.fit_binomial(
-        np.exp(design[:, 1:]), event, np.ones(n), link="probit", parametrization="glm", cluster=cell
-    )
+    options = {"link": "probit", "parametrization": "glm", "cluster": cell}
+    other = pf.fit_binomial(np.exp(design[:, 1:]), event, np.ones(n), **options)
     assert np.allclose(other.params, fit.params, rtol=1e-7)
     errors = np.sqrt(np.diag(other.covariance("sandwich", small_sample=True)))
     of_clusters |= {f"probit_{name}_clustered{k}": error for k, error in enumerate(errors)}
@@ -97,10 +96,10 @@ designs = {"im4": sm.add_constant(x), "im4:im3": sm.add_constant(np.column_stack
 for name, design in designs.items():
     score, index = left_out(lambda rows: curve(design, rows)).T
     area = stats.mannwhitneyu(index[event == 1], index[event == 0]).statistic / (event.sum() * (1 - event).sum())
-    line = scoring(event, sm.add_constant(index)).params
-    of_curve = {"log_score": score.mean(), "unseen_auc": area, "intercept": line[0], "slope": line[1]}
-    of_curve["unseen_brier"] = np.mean((stats.norm.cdf(index) - event) ** 2)
-    scores |= {f"p_ro_{name}_single_{what}": number for what, number in of_curve.items()}
+    brier, line = np.mean((stats.norm.cdf(index) - event) ** 2), scoring(event, sm.add_constant(index)).params
+    names = "log_score", "unseen_auc", "intercept", "slope", "unseen_brier"
+    of_curve = zip(names, (score.mean(), area, *line, brier))
+    scores |= {f"p_ro_{name}_single_{what}": number for what, number in of_curve}
     means = left_out(lambda rows: design @ sm.OLS(demand[rows], design[rows]).fit().params)
     scores[f"p_ex_{name}_single_slope"] = sm.OLS(demand, sm.add_constant(means)).fit().params[1]
     for form, sides in {"single": [low | ~low], "broken": [low, ~low]}.items():
@@ -115,12 +114,8 @@ fit = newton(event, sm.add_constant(np.column_stack([x, y])))
 b, se = ({f"{what}{k}": v for k, v in enumerate(of)} for what, of in [("b", fit.params), ("se", fit.bse)])
 write_answers("nearly_separated_answers.csv", b | se | {"llf": fit.llf})
 
-samples = {
-    "few": [0.7, 1.1, 1.3, 2.9],
-    "thirteen": np.exp(0.4 * np.random.default_rng(13).standard_normal(13)).round(4).tolist(),
-    "many": np.exp(0.3 * np.random.default_rng(200).standard_normal(200)).round(4).tolist(),
-}
-rows = []
+drawn = lambda sd, n: np.exp(sd * np.random.default_rng(n).standard_normal(n)).round(4).tolist()
+samples, rows = {"few": [0.7, 1.1, 1.3, 2.9], "thirteen": drawn(0.4, 13), "many": drawn(0.3, 200)}, []
 for name, capacities in samples.items():
     n, mean, sd = len(capacities), np.log(capacities).mean(), np.log(capacities).std(ddof=1)
     theta = np.exp([mean, *stats.t(n - 1, mean, sd / np.sqrt(n)).ppf([0.025, 0.975])])

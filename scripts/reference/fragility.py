@@ -1,9 +1,8 @@
-"""Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy:
-python fragility.py > core/tests/reference/fits/fragility_answers.csv
+"""Probabilities at one peak, averaged over PGV/PGA of generic sites by scipy: python fragility.py >
+core/tests/reference/fits/fragility_answers.csv
 
-The surface is that of scripts/universal/surface.py. The line of PGV/PGA given PGA is that of recorded_peaks.py, that
-given PGV that of sites.py. Without a magnitude it is that of the motions that overturn, with its scatter. Intensities
-are PGA in g or PGV in m/s.
+The line of PGV/PGA given PGA is that of recorded_peaks.py, that given PGV that of sites.py. Without a
+magnitude it is that of the motions that overturn, with its scatter. Intensities are PGA in g or PGV in m/s.
 """
 
 import itertools
@@ -54,18 +53,14 @@ def averaged(over, structure, intensity, mw):
     if mw is None:
         mw, sd = MAGNITUDE[0], np.hypot(sd, per_magnitude * MAGNITUDE[1])
     median = level + slope * np.log(intensity / LEVEL_AT[over]) + per_magnitude * (mw - 6.3)
-    uplift = G * np.tan(structure[1])
-    if over == "pga":
-        if intensity <= uplift:
-            return 0.0, 0.0
-        z = np.linspace(-9.0, 9.0, 40_001)
-        pga, pgv = intensity, intensity * np.exp(median + sd * z)
-    else:
-        # Motions with more than this have too little PGA to uplift the structure.
-        last = (np.log(intensity / uplift) - median) / sd
-        z = np.linspace(-9.0, min(last - 1e-9, 9.0), 40_001)
-        pga, pgv = intensity / np.exp(median + sd * z), intensity
-    peaks = np.broadcast_to(pga, z.shape), np.broadcast_to(pgv, z.shape)
+    over_uplift = intensity / (G * np.tan(structure[1]))
+    if over == "pga" and over_uplift <= 1:
+        return 0.0, 0.0
+    # Motions with more than this have too little PGA to uplift the structure.
+    last = np.inf if over == "pga" else (np.log(over_uplift) - median) / sd - 1e-9
+    z = np.linspace(-9.0, min(last, 9.0), 40_001)
+    ratio, held = np.exp(median + sd * z), np.full(z.shape, intensity)
+    peaks = (held, held * ratio) if over == "pga" else (held / ratio, held)
     return simpson(probabilities(structure, *peaks, mw) * norm.pdf(z), x=z)
 
 

@@ -1,16 +1,16 @@
-"""Amplitudes between which one cycle of a sine overturns a slender block, by linear theory: python one_sine.py
+"""Amplitudes at which one cycle of a sine overturns a slender block: python one_sine.py
 core/tests/reference/rocking
 
-With r = amplitude/(g alpha), x = theta/alpha and time in 1/p, x'' = x - s - r sin(w t) on the side s = 1 or -1
-has a closed form; only the times of impact, where x' falls to eta x', are roots. Writes to one_sine.csv by w/p
-all r from 1.1 to 12 at which the outcome changes: without an impact, and after one.
+With r = amplitude/(g alpha), x = theta/alpha and time in 1/p, x'' = x - s - r sin(w t) on the side s = 1 or
+-1 has a closed form; only the times of impact, where x' falls to eta x', are roots. Writes to one_sine.csv by
+w/p all r from 1.1 to 12 at which the outcome changes: without an impact, and after one.
 """
 
 import pathlib
 import sys
 
 import numpy as np
-from scipy.optimize import brentq
+from scipy.optimize import bisect, brentq
 
 ETA, FREQUENCIES, MOST, STEP = 0.9, (2.0, 3.0, 5.0, 7.0), 12.0, 0.005
 
@@ -63,12 +63,9 @@ def edges():
     for w in FREQUENCIES:
         happens = [overturns(r, w)[0] for r in grid]
         for k in np.flatnonzero(np.diff(happens)):
-            low, high = grid[k], grid[k + 1]
-            while high - low > 1e-10:
-                middle = (low + high) / 2
-                low, high = (middle, high) if overturns(middle, w)[0] == happens[k] else (low, middle)
-            over = high if happens[k + 1] else low
-            yield f"{w:g},{low:.9f},{int(happens[k + 1])},{overturns(over, w)[1]}"
+            r = bisect(lambda r: overturns(r, w)[0] - 0.5, grid[k], grid[k + 1], xtol=1e-11)
+            over = r + 1e-10 if happens[k + 1] else r - 1e-10
+            yield f"{w:g},{r:.9f},{int(happens[k + 1])},{overturns(over, w)[1]}"
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 """What stood and what fell, and calibrations to it: python outcomes.py core/tests/reference/fits
 
-outcomes.csv has four lists of blocks: `town`, of one earthquake; `towns`, of twelve; `stood` and `fell`, in which
-all did. outcomes_answers.csv: c, ln s and m of scripts/universal/calibration.py and their covariance, with a shift
-for each earthquake."""
+outcomes.csv has four lists of blocks: `town`, of one earthquake; `towns`, of twelve; `stood` and `fell`, in
+which all did. outcomes_answers.csv: c, ln s, m and covariance of calibration.py, with a shift for each
+earthquake.
+"""
 
 import pathlib
 import sys
@@ -58,9 +59,7 @@ def lists():
 
 
 if __name__ == "__main__":
-    folder = pathlib.Path(sys.argv[1])
-    of_all = list(lists())
+    folder, of_all = pathlib.Path(sys.argv[1]), list(lists())
     pd.concat(of_all).to_csv(folder / "outcomes.csv", index=False)
     answers = pd.DataFrame({"list": rows.list.iloc[0]} | answer(rows) for rows in of_all)
     answers.to_csv(folder / "outcomes_answers.csv", index=False)
-    print(answers.round(3).to_string())

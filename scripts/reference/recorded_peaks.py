@@ -1,9 +1,9 @@
 """PGV/PGA of motions as recorded, and the fragility by it: python recorded_peaks.py COMPONENTS RESPONSES
 
 COMPONENTS (CSV) has the earthquake, magnitude, pga_m_s2 and pgv_m_s of components as recorded; the line of
-core/src/hazard/pgv_pga.rs is fitted to them with a random level for each earthquake. RESPONSES (Parquet, of simulate,
-with the earthquake) tells what each overturns. Medians of the fragility over PGA stand beside medians of probit fits
-to the counts, by magnitude: each earthquake is predicted by a line fitted without it.
+core/src/hazard/pgv_pga.rs is fitted to them with a random level for each earthquake. RESPONSES (Parquet, of
+simulate, with the earthquake) tells what each overturns. Medians of the fragility over PGA stand beside
+medians of probit fits to the counts, by magnitude: each earthquake is predicted by a line fitted without it.
 """
 
 import itertools
@@ -19,9 +19,7 @@ from fragility import G, LEVEL_AT, probabilities
 
 BANDS = [(5.0, 5.95), (5.95, 6.45), (6.45, 8.0)]
 # The least count of overturnings, and of others, of a structure in a band.
-LEAST = 8
-Z = np.linspace(-4, 4, 41)
-WEIGHT = norm.pdf(Z) / norm.pdf(Z).sum()
+LEAST, Z = 8, np.linspace(-4, 4, 41)
 
 
 def line(components):
@@ -33,10 +31,10 @@ def line(components):
 
 def overturning(structure, ln_pga, mw, of_line):
     level, slope, sd, per_magnitude = of_line
-    pga = np.exp(ln_pga)
     median = level + slope * (ln_pga - np.log(LEVEL_AT["pga"])) + per_magnitude * (mw - 6.3)
-    pga, pgv = np.repeat(pga, len(Z)), np.outer(pga * np.exp(median), np.exp(sd * Z)).ravel()
-    return probabilities(structure, pga, pgv, mw)[1].reshape(-1, len(Z)) @ WEIGHT
+    pga, pgv = np.repeat(np.exp(ln_pga), len(Z)), np.exp(np.add.outer(ln_pga + median, sd * Z)).ravel()
+    p = probabilities(structure, pga, pgv, mw)[1]
+    return np.average(p.reshape(-1, len(Z)), axis=1, weights=norm.pdf(Z))
 
 
 def median(ln_pga, p):
@@ -53,8 +51,8 @@ def judged(components, responses):
         fell, ln_pga = (rows["outcome"] == "overturning").astype(float), np.log(rows["pga_m_s2"].to_numpy())
         if min(fell.sum(), (1 - fell).sum()) < LEAST:
             continue
-        counted, beta = median(ln_pga, fell.to_numpy())
-        if not (np.quantile(ln_pga, 0.03) < counted < np.quantile(ln_pga, 0.97) and 0 < beta < 1.5):
+        (counted, beta), (least, most) = median(ln_pga, fell.to_numpy()), np.quantile(ln_pga, [0.03, 0.97])
+        if not (least < counted < most and 0 < beta < 1.5):
             continue
         structure = tuple(rows[["p_rad_s", "alpha_rad", "eta"]].iloc[0])
         grid = np.linspace(np.log(G * np.tan(structure[1])) + 1e-3, np.log(4.5 * G), 40)
@@ -66,13 +64,12 @@ def judged(components, responses):
         yield f"M {low} to {high}", np.exp(median(ln_pga, p)[0] - counted)
 
 
-if __name__ == "__main__":
-    tables = pd.read_csv(sys.argv[1]), pd.read_parquet(sys.argv[2])
-    components, responses = (table.replace("CHI-CHI TAIWAN", "CHI-CHI 09/20/99") for table in tables)
-    components["ratio"] = np.log(components["pgv_m_s"] / components["pga_m_s2"])
-    components["pga"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"])
-    components["mw"] = components["magnitude"] - 6.3
-    found, between = line(components)
-    print("level, slope, scatter, per magnitude, sd between earthquakes:", *np.round([*found, between], 2))
-    table = pd.DataFrame(judged(components, responses), columns=["magnitudes", "median over counted"])
-    print(table.groupby("magnitudes").agg(["median", "size"]).round(2).to_string())
+tables = pd.read_csv(sys.argv[1]), pd.read_parquet(sys.argv[2])
+components, responses = (table.replace("CHI-CHI TAIWAN", "CHI-CHI 09/20/99") for table in tables)
+components["ratio"] = np.log(components["pgv_m_s"] / components["pga_m_s2"])
+components["pga"] = np.log(components["pga_m_s2"] / LEVEL_AT["pga"])
+components["mw"] = components["magnitude"] - 6.3
+found, between = line(components)
+print("level, slope, scatter, per magnitude, sd between earthquakes:", *np.round([*found, between], 2))
+table = pd.DataFrame(judged(components, responses), columns=["magnitudes", "median over counted"])
+print(table.groupby("magnitudes").agg(["median", "size"]).round(2).to_string())

@@ -1,9 +1,8 @@
 """Measures and pulses of motions by other programs: python records.py core/tests/reference
 
-Reads rocking/motions.parquet and writes records/measures.csv (eqsig, and numpy for the mean period, the Arias
-intensity and durations) and records/pulses.csv (the indicator of Baker 2007 with PyWavelets' db4 at full
-resolution; the fit of Eq. 1 by differential evolution). Needs numpy, scipy, pandas, pyarrow, eqsig and
-PyWavelets.
+Reads rocking/motions.parquet and writes records/measures.csv (eqsig, numpy) and records/pulses.csv (the
+indicator of Baker 2007 with PyWavelets' db4 at full resolution; the fit of Eq. 1 by differential evolution).
+Needs numpy, scipy, pandas, pyarrow, eqsig and PyWavelets.
 """
 
 import pathlib
@@ -46,9 +45,9 @@ def measures(acceleration, dt):
     moments = np.interp(np.array([0.05, 0.75, 0.95]) * energy[-1], energy, np.arange(len(fine)) * dt / 64)
     yield "d5_75_s", moments[1] - moments[0]
     yield "d5_95_s", moments[2] - moments[0]
-    housner = np.linspace(0.1, 2.5, 49)
-    yield "housner_m", np.trapezoid(eqsig.sdof.pseudo_response_spectra(acceleration, dt, housner, 0.05)[1], housner)
-    spectrum = eqsig.sdof.pseudo_response_spectra(acceleration, dt, PERIODS, 0.05)[2]
+    housner, spectra = np.linspace(0.1, 2.5, 49), eqsig.sdof.pseudo_response_spectra
+    yield "housner_m", np.trapezoid(spectra(acceleration, dt, housner, 0.05)[1], housner)
+    spectrum = spectra(acceleration, dt, PERIODS, 0.05)[2]
     yield from ((f"sa_{period}", sa) for period, sa in zip(PERIODS, spectrum))
 
 
@@ -62,26 +61,20 @@ def wavelet(period, dt):
     return np.interp(np.arange(-reach, reach + 1) * dt / scale + 3.5, x, psi) / np.sqrt(scale)
 
 
-def coefficients(series, dt, period):
-    kernel = wavelet(period, dt)
-    reach = len(kernel) // 2
-    return dt * np.correlate(np.pad(series, reach), kernel, "valid")
+def coefficients(series, dt, kernel):
+    return dt * np.correlate(np.pad(series, len(kernel) // 2), kernel, "valid")
 
 
 def indicator(velocity, dt):
     periods = np.geomspace(0.25, 15, 400)
-    transforms = [abs(coefficients(velocity, dt, period)) for period in periods]
+    transforms = [abs(coefficients(velocity, dt, wavelet(period, dt))) for period in periods]
     best = max(range(len(periods)), key=lambda k: transforms[k].max())
     period, centre = periods[best], int(transforms[best].argmax())
-    residual = velocity.copy()
-    kernel = wavelet(period, dt)
-    reach = len(kernel) // 2
-    near = int(np.ceil(0.4 * period * 5 / 7 / dt))
+    residual, kernel, near = velocity.copy(), wavelet(period, dt), int(np.ceil(0.4 * period * 5 / 7 / dt))
+    first, reach = max(0, centre - near), len(kernel) // 2
     for _ in range(10):
-        strength = coefficients(residual, dt, period)
-        allowed = np.zeros(len(velocity), bool)
-        allowed[max(0, centre - near) : centre + near + 1] = True
-        at = int(np.where(allowed, abs(strength), -1).argmax())
+        strength = coefficients(residual, dt, kernel)
+        at = first + int(abs(strength[first : centre + near + 1]).argmax())
         padded = np.pad(residual, reach)
         padded[at : at + len(kernel)] -= strength[at] * kernel
         residual = padded[reach : len(padded) - reach]
@@ -109,11 +102,9 @@ def pulse(acceleration, dt):
     return f"{value:.6f}", f"{period:.5f}", f"{1 - fit.fun:.6f}", *(f"{p:.6f}" for p in fit.x)
 
 
-def write(name, columns, rows):
-    pd.DataFrame(rows, columns=columns.split()).to_csv(folder / "records" / name, index=False)
-
-
 found = [(name, measure, f"{value:.9g}") for name, dt, a in motions for measure, value in measures(a, dt)]
-write("measures.csv", "motion_id measure value", found)
+columns = ["motion_id", "measure", "value"]
+pd.DataFrame(found, columns=columns).to_csv(folder / "records/measures.csv", index=False)
 pulses = [(name, *pulse(a, dt)) for name, dt, a in motions]
-write("pulses.csv", "motion_id indicator period_s r2 tp_s gamma t0_s", pulses)
+columns = "motion_id indicator period_s r2 tp_s gamma t0_s".split()
+pd.DataFrame(pulses, columns=columns).to_csv(folder / "records/pulses.csv", index=False)

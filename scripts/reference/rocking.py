@@ -1,18 +1,20 @@
 """Answers for a motions file in quadruple precision: python rocking.py MOTIONS.parquet ANSWERS.csv
 P:ALPHA:ETA ...
 
-core/tests/reference/rocking/motions.parquet has sixty: velocity pulses, pulses under decaying noise, half-sine and
-rectangular pulses, and records that touch the uplift threshold of alpha = 0.15 exactly. By another formulation than the program's own: Taylor series of phi = alpha - |theta| of order 20 in steps
-between samples, events by scanning and bisection, in numbers of 113 bits. The condition is the relative
-change of the demand under motions stronger by 1e-15. Needs gmpy2 and pyarrow; 60 motions and two structures
-take some minutes.
+core/tests/reference/rocking/motions.parquet has sixty: velocity pulses, pulses under decaying noise,
+half-sine and rectangular pulses, and records that touch the uplift threshold of alpha = 0.15 exactly. Taylor
+series of phi = alpha - |theta| of order 20 in steps between samples, events by scanning and bisection, in
+numbers of 113 bits. The condition is the relative change of the demand under motions stronger by 1e-15. Needs
+gmpy2, numpy and pyarrow; 60 motions and two structures take some minutes.
 """
 
 import sys
+from itertools import pairwise
 
 import gmpy2
 import pyarrow.parquet as pq
 from gmpy2 import acos, cos, mpfr, sin, sqrt, tan
+from numpy.polynomial.polynomial import polyder, polyval
 
 gmpy2.get_context().precision = 113
 ORDER, PIECES, LONGEST = 20, 16, mpfr(2) / 100
@@ -32,49 +34,34 @@ def taylor(alpha, r, v, w0, w1):
     return [r, v, *(-a for a in f[2:])]
 
 
-def value(series, x):
-    total = mpfr(0)
-    for a in reversed(series):
-        total = total * x + a
-    return total
-
-
-def derivative(series):
-    return [k * a for k, a in enumerate(series)][1:]
-
-
 def bisect(series, low, high):
-    positive = value(series, low) > 0
+    positive = polyval(low, series) > 0
     for _ in range(130):
         middle = (low + high) / 2
-        low, high = (middle, high) if (value(series, middle) > 0) == positive else (low, middle)
+        low, high = (middle, high) if (polyval(middle, series) > 0) == positive else (low, middle)
     return (low + high) / 2
-
-
-def pieces(h):
-    return [(h * k / PIECES, h * (k + 1) / PIECES) for k in range(PIECES)]
 
 
 def first_root(series, h):
     """The first x in (0, h] at which a series, positive after 0, is no longer so; None where it stays so."""
-    slope = derivative(series)
-    for low, high in pieces(h):
-        if value(series, high) <= 0:
+    slope = polyder(series)
+    for low, high in pairwise(h * k / PIECES for k in range(PIECES + 1)):
+        if polyval(high, series) <= 0:
             return bisect(series, low, high)
-        if value(slope, low) < 0 < value(slope, high):
+        if polyval(low, slope) < 0 < polyval(high, slope):
             least = bisect(slope, low, high)
-            if value(series, least) <= 0:
+            if polyval(least, series) <= 0:
                 return bisect(series, low, least)
     return None
 
 
 def largest(series, h):
     """At the ends of the pieces and at the maxima within them."""
-    slope = derivative(series)
-    for low, high in pieces(h):
-        yield value(series, high)
-        if value(slope, low) > 0 >= value(slope, high):
-            yield value(series, bisect(slope, low, high))
+    slope = polyder(series)
+    for low, high in pairwise(h * k / PIECES for k in range(PIECES + 1)):
+        yield polyval(high, series)
+        if polyval(low, slope) > 0 >= polyval(high, slope):
+            yield polyval(bisect(slope, low, high), series)
 
 
 def simulate(p, alpha, eta, dt, u):
@@ -85,9 +72,8 @@ def simulate(p, alpha, eta, dt, u):
     for here, there in zip(u, u[1:]):
         slope, x = (there - here) / end, mpfr(0)
         while x < end:
-            at_threshold = False
+            now, at_threshold = here + slope * x, False
             if side == 0:
-                now = here + slope * x
                 if abs(now) <= tangent and abs(there) <= tangent:
                     break
                 if abs(now) < tangent:
@@ -100,7 +86,7 @@ def simulate(p, alpha, eta, dt, u):
                 # Where uplift begins at its threshold nothing but rounding accelerates the structure yet.
                 series[2] = mpfr(0)
             # No rotation within h differs by more from that at the start.
-            reach = h * value([abs(a) for a in series[1:]], h)
+            reach = h * polyval(h, [abs(a) for a in series[1:]])
             # From the base, the roots at the start do not count.
             start = next(k for k, a in enumerate(series) if a != 0)
             impact = first_root(series[start:], h) if r <= reach else None
@@ -110,7 +96,7 @@ def simulate(p, alpha, eta, dt, u):
                 return *overturned, impacts
             if r + reach > peak:
                 peak = max(peak, *largest(series, until))
-            r, v = value(series, until), value(derivative(series), until)
+            r, v = polyval(until, series), polyval(until, polyder(series))
             x = end if until == end - x else x + until
             if impact:
                 r, v, side, impacts = mpfr(0), -eta * v, -side, impacts + 1

@@ -1,10 +1,11 @@
-"""Judges rates of evaluate --hazard at the sites of sites.py or worlds.py: python site_rates.py FOLDER ROCKFRAG
+"""Judges rates of evaluate --hazard at the sites of sites.py or worlds.py: python site_rates.py FOLDER
+ROCKFRAG
 
-The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own magnitude. The
-table has, for each route, the rates over the truth, and how often the 95 % limits hold truths whose c, ln s, m and eta
-are drawn from their distributions. A second table tells how far the mean magnitude of the motions that overturn lies
-above the mean of the disaggregation of PGA, of SA(1.0 s), and above that which their PGV/PGA tells; a third has that
-mean of all sites, its sd between sites and within.
+The truth is the sum over the joint hazard of a site of its rates times P_ro, each earthquake by its own
+magnitude. The table has, for each route, the rates over the truth, and how often the 95 % limits hold truths
+whose c, ln s, m and eta are drawn. A second table tells how far the mean magnitude of the motions that
+overturn lies above those of the disaggregation of PGA and of SA(1.0 s), a third what PGV/PGA tells less, that
+mean and its sd within a site.
 """
 
 import itertools
@@ -14,6 +15,7 @@ import sys
 
 import numpy as np
 import pandas as pd
+from scipy.interpolate import interp1d
 from scipy.special import expit
 
 import sites as S
@@ -26,7 +28,7 @@ MIDDLE, RANGE = 6.9, (5.0, 7.6)
 LN_LOSS = np.linspace(-1.2, 1.2, 7)
 folder, binary = pathlib.Path(sys.argv[1]), sys.argv[2]
 data = np.load(folder / "sites.npz")
-names, joint, mean_mw = data["names"], data["joint"], data["mw"]
+names, joint = data["names"], data["joint"]
 random = np.random.default_rng(1)
 
 
@@ -44,19 +46,15 @@ class Truth:
     """Logits of P_ro of an object, by what they depend on."""
 
     def __init__(self, width, height):
-        housner = 1 - 1.5 * np.sin(np.arctan(width / height)) ** 2
         self.c, _, self.m, *self.sds = PRIOR
-        self.tan_alpha = width / height
-        etas = 1 - (1 - housner) * np.exp(LN_LOSS)
+        etas = 1 - 1.5 * np.sin(np.arctan(width / height)) ** 2 * np.exp(LN_LOSS)
         self.logits = np.array([surface(width, height, eta, MIDDLE) for eta in etas])
         self.rocks = np.isfinite(self.logits[0])
 
     def rate(self, rates, c=0.0, ln_s=0.0, m=0.0, loss=0.0):
         """Of a site, with c, ln s, m and ln(1 - eta) off by so much."""
-        at = np.clip((loss - LN_LOSS[0]) / (LN_LOSS[1] - LN_LOSS[0]), 0, len(LN_LOSS) - 1.001)
-        low, share = int(at), at - int(at)
-        z = (1 - share) * self.logits[low][self.rocks] + share * self.logits[low + 1][self.rocks]
-        z = self.c + c + np.exp(ln_s) * (z - self.c)
+        by_loss = interp1d(LN_LOSS, self.logits[:, self.rocks], axis=0)
+        z = self.c + c + np.exp(ln_s) * (by_loss(np.clip(loss, *LN_LOSS[[0, -1]])) - self.c)
         of = lambda mw: (self.m + m) * (np.clip(mw, *RANGE) - MIDDLE)
         return sum(expit(z + of(mw)) @ rates[k][self.rocks] for k, mw in enumerate(S.MAGNITUDES))
 
@@ -72,32 +70,27 @@ def write(k):
             level = np.minimum(levels, S.inverse(levels, rates, 1 / years)) / unit
             cut = pd.DataFrame({heading: level, "annual_rate_of_exceedance": np.maximum(rates, 1 / years)})
             cut[rates < 0.5].drop_duplicates().to_csv(folder / f"{name}{years}.csv", index=False)
-    m, a, v = np.nonzero(joint[k] > 1e-10)
-    bins = {"pga_m_s2": np.exp(S.X[a]), "pgv_m_s": np.exp(S.Y[v]), "mw": S.MAGNITUDES[m]}
-    bins["annual_rate_of_occurrence"] = joint[k][m, a, v]
-    pd.DataFrame(bins).to_csv(folder / "joint.csv", index=False)
 
 
 # Curves, also cut at so many years, M or MS (the mean magnitude by PGA or by SA(1.0 s)) and V (Vs30).
 ROUTES = [
-    "PGA", "PGA, M", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "joint",
-    "PGA975", "PGA2475",
+    "PGA", "PGA, M, V", "PGV", "PGA, SA", "PGA, SA, MS", "PGA, PGV", "PGA, PGV, M", "PGA975", "PGA975, SA975",
+    "PGA2475", "PGA2475, SA2475",
 ]  # fmt: skip
-MEANS = {"M": mean_mw, "MS": data["mw_sa"]}
+MEANS = {"M": data["mw_pga"], "MS": data["mw_sa"]}
 
 
 def answers(k, route):
-    given = route.split(", ")
-    paths = ",".join(str(folder / f"{name.lower()}.csv") for name in given if name not in ("M", "MS", "V"))
-    mw = [word for name in given if name in MEANS for word in ("--magnitude", f"{MEANS[name][k]:.2f}")]
-    vs30 = ["--vs30", names[k][3]] if "V" in given else []
-    options = "--hazard", paths, *mw, *vs30, "--format", "json"
+    words = {name: f"--magnitude={of[k]:.2f}" for name, of in MEANS.items()} | {"V": f"--vs30={names[k][3]}"}
+    paths = ",".join(str(folder / f"{name.lower()}.csv") for name in route.split(", ") if name not in words)
+    chosen = [words[name] for name in route.split(", ") if name in words]
+    options = "--hazard", paths, *chosen, "--format=json"
     rows = json.loads(call(binary, "evaluate", "--structures", folder / "objects.csv", *options))
     return {row["structure"]: row for row in rows}
 
 
 def judged(truths):
-    """Of each site, route and object ln(rate/truth), how often the limits hold a drawn truth, and ln of their ratio."""
+    """Of each site, route and object ln(rate/truth), how often limits hold drawn truths, their ln width."""
     for k in np.flatnonzero(np.isin(names[:, 0], ["judge", "magnitude", "world"])):
         write(k)
         sites = names[k, 1 if names[k, 0] == "world" else 0]
@@ -109,39 +102,35 @@ def judged(truths):
                 value, low, high = (row[f"overturning_per_year{end}"] for end in ("", "_low", "_high"))
                 if value is not None and true[name] > 1e-9:
                     held = np.mean([low <= rate <= high for rate in drawn[name]])
-                    yield sites, k, route, np.log(value / true[name]), held, np.log(high) - np.log(low)
+                    yield sites, route, np.log(value / true[name]), held, np.log(high) - np.log(low)
 
 
 def magnitudes(truths):
-    """Of each site and object, how far the mean magnitude of what overturns lies above those of the curves and of
-    PGV/PGA; the mean, and the sd about it."""
+    """Of each site and object, how far the mean magnitude of what overturns is above others; mean, sd."""
     intercept, slope, _, *ends = SURFACE.numbers["magnitude", "recorded"]
     tells = np.clip(intercept + slope * (S.Y - S.X[:, None]), *ends)
     for k, truth in itertools.product(range(len(names)), truths.values()):
         rates = np.array([truth.rate(joint[k] * (S.MAGNITUDES == mw)[:, None, None]) for mw in S.MAGNITUDES])
-        mw = rates @ S.MAGNITUDES / rates.sum()
-        within = np.sqrt(rates @ (S.MAGNITUDES - mw) ** 2 / rates.sum())
-        p = expit(truth.logits[3] + truth.m * (tells - MIDDLE))
-        told = (joint[k].sum(axis=0) * p * tells).sum() / (joint[k].sum(axis=0) * p).sum()
+        mw = np.average(S.MAGNITUDES, weights=rates)
+        within = np.sqrt(np.average((S.MAGNITUDES - mw) ** 2, weights=rates))
+        weights = joint[k].sum(axis=0) * expit(truth.logits[3] + truth.m * (tells - MIDDLE))
+        told = np.average(tells, weights=weights)
         site = names[k, 1].rstrip(" 0123456789") or names[k, 1]
         yield *names[k, :1], site, *(mw - of[k] for of in MEANS.values()), mw - told, mw, within
 
 
 def summary(rows):
     off = rows["off"]
-    return pd.Series({
-        "n": len(off), "geometric mean": np.exp(off.mean()), "rms ln": np.sqrt((off**2).mean()),
-        "in 1.5": (off.abs() < np.log(1.5)).mean(), "held": rows["held"].mean(),
-        "high/low": np.exp(rows["width"].mean()),
-    })  # fmt: skip
+    names, rms = ["n", "geometric mean", "rms ln", "held", "high/low"], np.sqrt((off**2).mean())
+    numbers = [len(off), np.exp(off.mean()), rms, rows["held"].mean(), np.exp(rows["width"].mean())]
+    return pd.Series(numbers, names)
 
 
-if __name__ == "__main__":
-    pd.DataFrame(OBJECTS, ["width", "height"]).T.to_csv(folder / "objects.csv", index_label="name")
-    of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
-    found = pd.DataFrame(judged(of_objects), columns=["sites", "k", "route", "off", "held", "width"])
-    print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
-    columns = ["kind", "sites", "above that of PGA", "above that of SA", "above that of PGV/PGA", "mean", "within"]
-    above = pd.DataFrame(magnitudes(of_objects), columns=columns)
-    print(above.groupby(["kind", "sites"], sort=False)[columns[2:4]].mean().round(2).to_string())
-    print(above.groupby("kind", sort=False)[columns[4:]].agg(["mean", "std"]).round(2).to_string())
+pd.DataFrame(OBJECTS, ["width", "height"]).T.to_csv(folder / "objects.csv", index_label="name")
+of_objects = {name: Truth(*size) for name, size in OBJECTS.items()}
+found = pd.DataFrame(judged(of_objects), columns=["sites", "route", "off", "held", "width"])
+print(found.groupby(["sites", "route"], sort=False)[found.columns[2:]].apply(summary).round(3).to_string())
+columns = ["kind", "sites", "above that of PGA", "that of SA", "that of PGV/PGA", "mean", "within"]
+above = pd.DataFrame(magnitudes(of_objects), columns=columns)
+print(above.groupby(["kind", "sites"], sort=False)[columns[2:4]].mean().round(2).to_string())
+print(above.groupby("kind", sort=False)[columns[4:]].agg(["mean", "std"]).round(2).to_string())

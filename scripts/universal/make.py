@@ -45,8 +45,7 @@ HEAD = """\
 
 
 def shift(event, logit_of, cases):
-    """c, ln s, m, h, ln n, d, k, and what the coefficients of CORRECTED gain, of recorded motions, together, of
-    greatest likelihood."""
+    """c, ln s, m, h, ln n, d, k of recorded motions, and what CORRECTED gain, of greatest likelihood."""
     cases = fit.sample(event, cases)
     logit, m = logit_of(cases), magnitude(cases, (0, 0, 0, *MW["recorded"]))
     end = cases.select(features()["end"]).to_series().to_numpy() * (event == "pex")
@@ -77,21 +76,18 @@ def of_recorded(event, cases, recorded):
 
 
 def held(frame, taus):
-    """Groups of five and more cases of one structure and cluster: the class of P, whether limits with each
-    tau allow the count, and their width. The frame has z, the logit of cases left out, and happened."""
-    taus = np.array(taus)
+    """Groups of five and more cases of a structure and cluster: class of P, and whether limits with each tau
+    allow the count. The frame has z, the logit of cases left out, and happened."""
     for _, group in frame.group_by("structure", "cluster", maintain_order=True):
         z, happened = group["z"].to_numpy(), group["happened"].to_numpy()
         p = logistic(z).mean()
         if len(z) >= 5 and CLASSES[0] < p < CLASSES[-1]:
-            middle, half = np.log(p / (1 - p)), 1.96 * taus
-            width = logistic(middle + half) - logistic(middle - half)
-            yield np.digitize(p, CLASSES) - 1, allowed(z, happened, taus), width
+            yield np.digitize(p, CLASSES) - 1, allowed(z, happened, taus)
 
 
 def tau_of(*frames):
     """That by which the coverage of all classes of P is nearest to what it should be."""
-    classes, holds, _ = map(np.array, zip(*(group for frame in frames for group in held(frame, TAUS))))
+    classes, holds = map(np.array, zip(*(group for frame in frames for group in held(frame, TAUS))))
     shares = np.array([holds[classes == k].mean(axis=0) for k in np.unique(classes)])
     return TAUS[np.abs(shares - COVERAGE).max(axis=0).argmin()]
 
@@ -105,8 +101,7 @@ def of_records_left_out(surface, event, cases, mw=pl.col("mw")):
 
 
 def of_cells_left_out(surface, event, kind, cases, prior):
-    """Cases with z: each structure calibrated on half of its clusters and judged on the others, and the other
-    way round."""
+    """Cases with z: a structure is calibrated on half of its clusters and judged on the other, in turns."""
     rng, judged = np.random.default_rng(1), []
     for _, own in of.counted(event, cases, LIMIT).group_by("structure", maintain_order=True):
         half = rng.permutation(own["cluster"].unique().sort().to_numpy())[::2]
@@ -129,7 +124,7 @@ def priors(surface, event, kind, cases, recorded, studies, mean):
 
 def peak_line(motions, name):
     """ln(PGV/PGA) on the logarithm of a peak, pga or pgv: a line with one bend."""
-    pga, pgv = (np.log(motions[column].to_numpy()) for column in ("pga_m_s2", "pgv_m_s"))
+    pga, pgv = np.log(motions.select("pga_m_s2", "pgv_m_s").to_numpy().T)
     peak = {"pga": pga, "pgv": pgv}[name]
     knot = np.quantile(peak, KNOT)
     columns = np.stack([np.ones_like(peak), peak, np.maximum(peak - knot, 0)], axis=1)
@@ -147,24 +142,6 @@ def magnitude_line(motions, low, high):
     return intercept, slope, np.std(mw - intercept - slope * ratio), low, high
 
 
-class Table:
-    """The lines of universal.csv. What it `keeps` of another table, by words, is not computed again."""
-
-    def __init__(self, lines, kept):
-        self.lines, self.kept = lines, kept
-
-    def put(self, words, numbers, form):
-        numbers = self.kept[tuple(words)] if tuple(words) in self.kept else numbers()
-        self.lines.append(",".join([*words, *(format(number, form) for number in numbers)]))
-
-
-def of_records(lines):
-    """What lines have of recorded motions, as it is written: the domain, rows, and the first number of terms."""
-    rows = [line.split(",") for line in lines if not line.startswith("#")]
-    of_terms = [",".join(row[:4]) for row in rows if row[0] == "term"]
-    return of_terms + [",".join(row) for row in rows if row[0] == "domain" or row[1] == "recorded"]
-
-
 def shipped(lines):
     """How many components and earthquakes, coefficients of recorded motions by event, and rows to keep."""
     numbers = Surface(lines).numbers
@@ -179,42 +156,44 @@ def main():
     cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
     motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS}
     if records_responses == "-":
-        before = open(out).read().splitlines()
-        recorded, (counts, b, kept) = None, shipped(before)
+        recorded, (counts, b, kept) = None, shipped(open(out).read().splitlines())
         found = {(event, "recorded"): (b[event], [0.0] * 4, None) for event in TERMS}
     else:
         recorded, kept = of.read([records_responses]), {}
         motions_of["recorded"] = recorded.filter(scale="x1").unique("motion_id").sort("motion_id")
         counts = len(motions_of["recorded"]), recorded["cluster"].n_unique()
         found = {(event, "recorded"): of_recorded(event, cases, recorded) for event in TERMS}
-    head = HEAD.format(
-        structures=cases["structure"].n_unique(), motions=cases["motion_id"].n_unique(), cases=len(cases),
-        records=counts[0], earthquakes=counts[1])  # fmt: skip
-    table = Table(head.splitlines(), kept)
+    unique = {"structures": cases["structure"].n_unique(), "motions": cases["motion_id"].n_unique()}
+    lines = HEAD.format(**unique, cases=len(cases), records=counts[0], earthquakes=counts[1]).splitlines()
+
+    def put(numbers, form, *words):
+        """Of the table that is there is kept what is not made anew."""
+        numbers = kept[words] if words in kept else numbers()
+        lines.append(",".join([*words, *(format(number, form) for number in numbers)]))
+
     of_im5 = np.quantile(cases["im5"], [0.001, 0.999])
     for name, ends in (DOMAIN | {"im4": (1.0, MOST_IM4), "im5": of_im5}).items():
-        table.put(["domain", name], lambda: ends, ".4g")
+        put(lambda: ends, ".4g", "domain", name)
     found |= {(event, kind): of_synthetic(event, kind, cases) for event in TERMS for kind in KINDS[1:]}
     by_event = [(event, kind) for event in TERMS for kind in KINDS]
     for event, terms in TERMS.items():
         for term in [*terms, *SYNTHETIC[event]]:
             row = [found[event, kind][0].get(term, 0.0) for kind in KINDS]
-            table.put(["term", event, term], lambda: row, ".6g")
+            put(lambda: row, ".6g", "term", event, term)
     for event, kind in by_event:
-        table.put(["uplift", kind, event], lambda: found[event, kind][2], ".4g")
+        put(lambda: found[event, kind][2], ".4g", "uplift", kind, event)
     for kind, of_kind in motions_of.items():
         ends = MW.get(kind, (5.5, 7.5))
-        table.put(["magnitude", kind], lambda: magnitude_line(of_kind, *ends), ".4g")
+        put(lambda: magnitude_line(of_kind, *ends), ".4g", "magnitude", kind)
         for name in ("pga", "pgv"):
-            table.put(["peaks", kind, name], lambda: peak_line(of_kind, name), ".4f")
-    surface = Surface(table.lines)
+            put(lambda: peak_line(of_kind, name), ".4f", "peaks", kind, name)
+    surface = Surface(lines)
     for event, kind in by_event:
         *mean, h = found[event, kind][1]
         spreads = lambda: priors(surface, event, kind, cases, recorded, studies, mean)
-        table.put(["calibration", kind, event], lambda: (*mean, *spreads(), h), ".3f")
-    assert recorded is not None or of_records(table.lines) == of_records(before)
+        put(lambda: (*mean, *spreads(), h), ".3f", "calibration", kind, event)
     with open(out, "w") as file:
-        file.write("\n".join(table.lines) + "\n")
+        file.write("\n".join(lines) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
-"""The universal surface: logits of P_ro and P_ex as sums of products of features, and what is added to them
-near uplift (core/data/universal.csv defines both). Cases are rows of a frame with p_rad_s, eta, im4, im5, mw (null
-where it is unknown) and limit."""
+"""The universal surface: logits of P_ro and P_ex as sums of products of features, and what is added near
+uplift (core/data/universal.csv defines both). Cases have p_rad_s, eta, im4, im5, mw (null where it is
+unknown) and limit.
+"""
 
 from functools import reduce
 from operator import mul
@@ -58,8 +59,7 @@ def uplift(cases, numbers):
 
 
 def magnitude(cases, line):
-    """M - 6.9, held within the data; where it is unknown that of `line`: (intercept, slope, sd, low, high) of
-    M on ln(PGV/PGA)."""
+    """M - 6.9, held within the data; if unknown by `line`: intercept, slope, sd, low and high of M."""
     intercept, slope, _, low, high = line
     known = pl.col("mw").fill_null(intercept - slope * RATIO.log()).clip(low, high)
     return cases.select(known - 6.9).to_series().to_numpy()

@@ -1,9 +1,10 @@
-"""Objects in front of a wall: their responses, and what the wall adds to the logits of the surface:
-python wall.py respond AT2.parquet OUT.parquet [records|blocks STEP]; fit UNIVERSAL.csv OUT.parquet; cells
+"""Objects in front of a wall: their responses, and what the wall adds to the logits of the surface: python
+wall.py respond AT2.parquet OUT.parquet [records|blocks STEP]; fit UNIVERSAL.csv OUT.parquet; cells
 OUT.parquet WALL.csv, the falls of blocks by cells of PGA and PGV (core/tests/reference/wall.csv)
 
-One-sided rocking (rocking.demand), with the wall in either of both directions. Records, structures and scales
-are those of scripts/universal, AT2.parquet as of its make.sh. Needs numba."""
+One-sided rocking, with the wall in either of both directions, under the records of scripts/universal/make.sh,
+whose AT2.parquet is read. Needs numba.
+"""
 
 import itertools
 import pathlib
@@ -37,18 +38,17 @@ def demands(a, dt, structures, rebounds):
         sides = np.array([[alpha, p, eta], [alpha, p, eta]])
         if np.abs(a).max() > np.tan(alpha):
             out[i, 0] = demand(a, dt, sides, FREE)
-            for j in range(len(rebounds)):
-                out[i, 1 + 2 * j] = demand(a, dt, sides, rebounds[j])
-                out[i, 2 + 2 * j] = demand(-a, dt, sides, rebounds[j])
+            for j, rebound in enumerate(rebounds):
+                out[i, 1 + 2 * j : 3 + 2 * j] = demand(a, dt, sides, rebound), demand(-a, dt, sides, rebound)
     return out
 
 
 def respond(imported, out, which="records", step=3):
-    structures, rebounds, rows = np.array(of.chosen(which))[:: int(step)], np.array(REBOUNDS), []
+    structures, rows = np.array(of.chosen(which))[:: int(step)], []
     for (name, earthquake, mw, a, dt), factor in itertools.product(motions.records(imported), of.FACTORS):
         pga, pgv = motions.peaks(factor * a, dt)
         u = motions.rested(factor * a / 9.81, dt, TAIL_S)
-        for structure, found in zip(structures, demands(u, dt, structures, rebounds)):
+        for structure, found in zip(structures, demands(u, dt, structures, np.array(REBOUNDS))):
             if found[0] > 0.0:
                 rows.append((f"{name} x{factor:g}", earthquake, mw, pga, pgv, *structure, *found))
     columns = "motion_id cluster mw pga_m_s2 pgv_m_s p_rad_s alpha_rad eta free".split()
@@ -58,16 +58,14 @@ def respond(imported, out, which="records", step=3):
 def counted(surface, responses, event, limit):
     """Cases with the logit by the surface at eta .85 and what it leaves to the wall: `of`, by columns."""
     uplift = 9.81 * pl.col("alpha_rad").tan()
-    rows = responses.with_columns(
-        im4=pl.col("pga_m_s2") / uplift, im5=pl.col("p_rad_s") * pl.col("pgv_m_s") / uplift,
-        eta=pl.lit(0.85), limit=pl.lit(limit),
-    ).filter(pl.col("im4") > 1.0)  # fmt: skip
+    ims = {"im4": pl.col("pga_m_s2") / uplift, "im5": pl.col("p_rad_s") * pl.col("pgv_m_s") / uplift}
+    rows = responses.with_columns(**ims, eta=0.85, limit=limit).filter(pl.col("im4") > 1.0)
     prior = surface.prior(event, "recorded", limit)
     rows = rows.with_columns(z=apply(prior, surface.parts(event, "recorded", rows)), **features())
+    rows = rows.filter(pl.col("z").is_finite())
     rows = rows.unpivot(WALLS, index=["cluster", "z", "x", "p"], variable_name="e", value_name="demand")
-    rows = rows.with_columns(e=pl.col("e").str.strip_chars("nearf").cast(float), s=pl.lit(np.exp(prior[1])))
-    fell = pl.col("demand").is_infinite()
-    rows = rows.with_columns(h=fell if event == "pro" else pl.col("demand") > limit)
+    fell, e = pl.col("demand").is_infinite(), pl.col("e").str.strip_chars("nearf").cast(float)
+    rows = rows.with_columns(e=e, s=np.exp(prior[1]), h=fell if event == "pro" else pl.col("demand") > limit)
     return rows.filter(~fell | (event == "pro"))
 
 
@@ -76,17 +74,15 @@ def fit(table, responses):
     surface, responses = Surface(open(table)), pl.read_parquet(responses)
     for event, limits in LIMITS.items():
         cases = pl.concat([counted(surface, responses, event, limit) for limit in limits])
-        cases = cases.filter(pl.col("z").is_finite())
-        by = {"a": pl.lit(1.0), "b": pl.col("e") ** 2, "c": pl.col("x"), "d": pl.col("p")}
-        columns, z = cases.select(**by).to_numpy() * cases["s"].to_numpy()[:, None], cases["z"].to_numpy()
+        s, e = pl.col("s"), pl.col("e")
+        columns = s, (s * e**2).alias("b"), pl.col("x", "p") * s
         happened, part = cases["h"].to_numpy().astype(float), cases["cluster"].rank("dense").to_numpy() % FOLDS
-        b, left = added_left_out(z, columns, happened, part)
+        b, left = added_left_out(cases["z"].to_numpy(), cases.select(columns).to_numpy(), happened, part)
         print(event, "a, b, c, d", b.round(2))
-        p = logistic(left)
-        of_case = np.digitize(p, CLASSES)
-        for e in REBOUNDS:
-            of_e = [(cases["e"].to_numpy() == e) & (of_case == k) for k in range(len(CLASSES) + 1)]
-            print(e, "foretold/counted", *(f"{p[at].mean():.3f}/{happened[at].mean():.3f}" for at in of_e))
+        cases = cases.with_columns(p=logistic(left), h=happened)
+        means = cases.group_by("e", pl.col("p").cut(CLASSES).alias("P")).agg(pl.col("p", "h").mean())
+        for (e,), of_e in means.sort("e", "P").group_by("e", maintain_order=True):
+            print(e, "foretold/counted", *(f"{p:.3f}/{h:.3f}" for p, h in of_e.select("p", "h").rows()))
 
 
 def cells(responses, out):
@@ -96,11 +92,9 @@ def cells(responses, out):
     means = {name: pl.col(name).log().mean().exp() for name in ("pga_m_s2", "pgv_m_s", "mw")}
     fallen = lambda e: pl.mean_horizontal(pl.col(f"near{e}", f"far{e}").is_infinite()).mean()
     falls = {f"p_{e}": fallen(e) for e in REBOUNDS}
-    found = rows.group_by(*structure, *bins).agg(**means, n=pl.len(), **falls)
-    found = found.filter((pl.col("n") >= 20) & (pl.col("p_0.7") > 0)).drop("of_pga_m_s2", "of_pgv_m_s")
-    found.sort(pl.all()).write_csv(out, float_precision=4)
+    found = rows.group_by(*structure, *bins).agg(**means, n=pl.len(), **falls).select(pl.exclude("^of_.*$"))
+    found.filter((pl.col("n") >= 20) & (pl.col("p_0.7") > 0)).sort(pl.all()).write_csv(out, float_precision=4)
 
 
-if __name__ == "__main__":
-    what, *arguments = sys.argv[1:]
-    {"respond": respond, "fit": fit, "cells": cells}[what](*arguments)
+what, *arguments = sys.argv[1:]
+{"respond": respond, "fit": fit, "cells": cells}[what](*arguments)
