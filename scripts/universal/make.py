@@ -142,6 +142,13 @@ def magnitude_line(motions, low, high):
     return intercept, slope, np.std(mw - intercept - slope * ratio), low, high
 
 
+def of_records(lines):
+    """What lines have of recorded motions, as it is written: the domain, rows, and the first number of terms."""
+    rows = [line.split(",") for line in lines if not line.startswith("#")]
+    rows = [row[:4] if row[0] == "term" else row for row in rows]
+    return [row for row in rows if row[0] in ("term", "domain") or row[1] == "recorded"]
+
+
 def shipped(lines):
     """How many components and earthquakes, coefficients of recorded motions by event, and rows to keep."""
     numbers = Surface(lines).numbers
@@ -156,7 +163,8 @@ def main():
     cases, studies = of.read(sys.argv[6:], 0.15), [of.read([file]) for file in studies]
     motions_of = {kind: synthetic.filter(suite=kind) for kind in KINDS}
     if records_responses == "-":
-        recorded, (counts, b, kept) = None, shipped(open(out).read().splitlines())
+        before = open(out).read().splitlines()
+        recorded, (counts, b, kept) = None, shipped(before)
         found = {(event, "recorded"): (b[event], [0.0] * 4, None) for event in TERMS}
     else:
         recorded, kept = of.read([records_responses]), {}
@@ -192,6 +200,7 @@ def main():
         *mean, h = found[event, kind][1]
         spreads = lambda: priors(surface, event, kind, cases, recorded, studies, mean)
         put(lambda: (*mean, *spreads(), h), ".3f", "calibration", kind, event)
+    assert recorded is not None or of_records(lines) == of_records(before)
     with open(out, "w") as file:
         file.write("\n".join(lines) + "\n")
 
