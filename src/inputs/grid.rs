@@ -90,7 +90,10 @@ impl Grid {
         let (mut grid, mut section) = (Grid::default(), String::new());
         for (row, role) in rows.into_iter().zip(roles) {
             match role {
-                RowRole::Head => {}
+                RowRole::Head if grid.rows.is_empty() => {}
+                RowRole::Head => {
+                    grid.others.push(format!("line {}: headings again, or a drawn line", row.line))
+                }
                 RowRole::Remark => grid.notes.push(row.text(source)),
                 RowRole::Section => {
                     section = row.text(source);

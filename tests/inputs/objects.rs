@@ -1,7 +1,9 @@
 //! Lists of objects in the forms that people keep them in.
 
+use proptest::collection;
+use proptest::prelude::*;
 use rockfrag::inputs::objects::{self, ListDefaults};
-use rockfrag::inputs::{InputError, Reader, Rename};
+use rockfrag::inputs::{InputError, Meaning, Reader, Reading, Rename};
 use rockfrag_core::object::{Base, Object, Wall, structure_warnings};
 use rockfrag_core::warning::Warning;
 
@@ -238,6 +240,52 @@ fn each_column_and_line_has_a_role() {
     let (objects, _, lines) = told(open);
     assert!(objects.iter().all(|object| object.count.is_none()), "a number of each row counts nothing");
     assert!(lines.join("\n").contains("depth of a, anchored of b"), "{lines:?}");
+}
+
+#[test]
+fn each_word_unit_and_sign_of_a_heading_has_a_role() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("list.csv");
+    let words = include_str!("../../data/headings.csv").lines().filter(|line| !line.starts_with('#')).skip(1);
+    for (_, word) in words.filter_map(|line| line.split_once(',')) {
+        for heading in ["", " (mm)", " %", " class"].map(|end| format!("{word}{end}")) {
+            for (cell, other) in [("7", "7"), ("yes", ""), ("blue", "green")] {
+                std::fs::write(&path, format!("Thing,W,H,{heading}\nvase,.4,2,{cell}\nurn,.4,2,{other}\n"))
+                    .unwrap();
+                let mut reader = Reader::default();
+                let Ok((objects, _)) = objects::read(&path, &mut reader, &ListDefaults::default()) else {
+                    continue;
+                };
+                let column = &reader.readings[0].columns[3];
+                let is_label = objects[0].labels.contains(&(heading.clone(), cell.to_string()));
+                assert_eq!(column.meaning == Meaning::Kept, is_label, "{heading}: {column:?}");
+                assert_eq!(column.filled, 1 + usize::from(!other.is_empty()), "{heading}");
+                let is_said = reader.readings[0].not_understood().contains(&&*heading);
+                assert_eq!(column.meaning == Meaning::NotUnderstood, is_said, "{heading}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #[test]
+    fn all_lines_of_a_list_are_rows_or_told(kinds in collection::vec(0..8_usize, 1..30)) {
+        const LINES: [&str; 8] = [
+            "vase,1,.4,2,a", "urn,2,.5,1.9,b", "Room 2,,,,", "Total,3,,,", "name,qty,width,height,note", "",
+            "# by hand", "* two rooms",
+        ];
+        let lines: Vec<&str> = kinds.iter().map(|kind| LINES[*kind]).collect();
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("list.csv");
+        std::fs::write(&path, format!("name,qty,width,height,note\nfirst,1,.4,2,c\n{}\n", lines.join("\n"))).unwrap();
+        let mut reader = Reader::default();
+        let (objects, _) = objects::read(&path, &mut reader, &ListDefaults::default()).unwrap();
+        let Reading { rows, others, .. } = reader.readings.remove(0);
+        prop_assert_eq!(objects.len(), rows);
+        prop_assert_eq!(rows + others.len(), 1 + lines.iter().filter(|line| !line.is_empty()).count());
+        prop_assert_eq!(rows, 1 + kinds.iter().filter(|kind| **kind < 2).count());
+    }
 }
 
 #[test]
