@@ -363,8 +363,10 @@ fn number_columns(rows: &[RawRow]) -> Vec<bool> {
 /// without numbers, all but the first are rows.
 fn heading_row(above: &[RawRow], is_number_column: &[bool], separator: Option<char>) -> Option<usize> {
     let width = is_number_column.len();
+    // A comment that has numbers is one.
+    let is_comment = |row: &RawRow| row.is_comment && row.cells.iter().any(is_number);
     let is_whole = |row: &RawRow| match row.is_comment || separator == Some(' ') {
-        true => row.cells.len() == width,
+        true => row.cells.len() == width && !is_comment(row),
         false => row.cells.len() >= width.min(2),
     };
     let words = above.iter().map(|row| count_words(row, is_number_column)).zip(above).enumerate();
