@@ -52,7 +52,9 @@ impl About {
             let known = Origin { mw: mw[row], re_km: re_km[row], earthquake, ..Origin::default() };
             let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
-            for name in names.chain(number.map(|at| format!("rsn{}", grid.cell(row, at)))) {
+            // Some programs write 6.0 for 6.
+            let number = number.map(|at| format!("rsn{}", grid.cell(row, at).trim_end_matches(".0")));
+            for name in names.chain(number) {
                 if all.insert(name.clone(), known.clone()).is_some_and(|before| before != known) {
                     let found = format!("line {line}: {name} again, with other values");
                     return Err(InputError::unexpected(found, "one row of each record"));

@@ -15,7 +15,7 @@ pub enum InputError {
     Unreadable(std::io::ErrorKind, String),
     #[error("damaged, or not what its beginning says: {0}")]
     Damaged(String),
-    #[error("{found}; expected a table: CSV, text or a workbook (.xlsx, .ods)")]
+    #[error("{found}; expected a table: save it as CSV or .xlsx")]
     NoTable { found: &'static str },
     #[error("{} files: {}; expected one table: unpack them, and give those meant", .found.len(), .found.join(", "))]
     Members { found: Vec<String> },

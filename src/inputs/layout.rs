@@ -215,8 +215,10 @@ fn number_columns(rows: &[RawRow]) -> Vec<bool> {
 /// without numbers, all but the first are rows.
 fn heading_row(above: &[RawRow], is_number_column: &[bool], source: Source) -> Option<usize> {
     let width = is_number_column.len();
+    // A comment that has numbers is one.
+    let is_remark = |row: &RawRow| row.is_comment && row.cells.iter().any(is_number);
     let is_whole = |row: &RawRow| match row.is_comment || source == Source::Blanks {
-        true => row.cells.len() == width,
+        true => row.cells.len() == width && !is_remark(row),
         false => row.cells.len() >= width.min(2),
     };
     let is_merged = |row: &RawRow| row.cells.len() > 1 && row.alone(source).is_some();

@@ -10,6 +10,7 @@ use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, downcast_integer};
 use arrow_schema::DataType;
 use rockfrag_core::plausibility::range_of_column;
 use rockfrag_core::rocking::Structure;
+use uuid::Uuid;
 
 use super::{TableError, dictionary};
 
@@ -145,10 +146,19 @@ fn floats(column: &ArrayRef) -> Option<Float64Array> {
     })
 }
 
-/// Returns a column of texts, or of integers as texts; `None` for other types.
+/// Returns a column of texts, or of integers, UTF-8 in bytes or UUIDs as texts; `None` for other types.
 pub fn texts(column: &ArrayRef) -> Option<Vec<Option<Cow<'_, str>>>> {
     if let Some(texts) = column.as_string_opt::<i32>() {
         return Some(texts.iter().map(|text| text.map(Cow::Borrowed)).collect());
+    }
+    let bytes = column.as_binary_opt::<i32>().map(|bytes| bytes.iter().collect::<Vec<_>>());
+    let bytes = bytes.or_else(|| Some(column.as_fixed_size_binary_opt()?.iter().collect()));
+    if let Some(bytes) = bytes {
+        let text = |bytes| std::str::from_utf8(bytes).ok().map(Cow::Borrowed);
+        let uuid = |bytes| Uuid::from_slice(bytes).ok().map(|uuid| Cow::Owned(uuid.to_string()));
+        let texts = bytes.iter().map(|bytes| bytes.map_or(Some(None), |bytes| text(bytes).map(Some)));
+        let uuids = bytes.iter().map(|bytes| bytes.map_or(Some(None), |bytes| uuid(bytes).map(Some)));
+        return texts.collect::<Option<_>>().or_else(|| uuids.collect());
     }
     Some(integers(column)?.into_iter().map(|number| Some(Cow::Owned(number?.to_string()))).collect())
 }

@@ -47,8 +47,12 @@ fn one_table_is_one_table_in_any_bytes() {
     ] {
         assert_eq!(read(&bytes), expected, "{name}");
     }
-    let shift_jis = encoding_rs::SHIFT_JIS.encode("名称,高さ (cm)\n棚,180\n").0;
-    assert_eq!(Grid::parse(&shift_jis, None).unwrap().headings[1].text, "高さ (cm)");
+    let text = "名称,高さ (cm)\n花瓶,180\n仏像,90\n";
+    let shift_jis = encoding_rs::SHIFT_JIS.encode(text).0;
+    assert_eq!(Grid::parse(&shift_jis, None), Grid::parse(text.as_bytes(), None));
+    let refused = |bytes: &[u8]| matches!(Grid::parse(bytes, None), Err(InputError::Unexpected { .. }));
+    assert!(refused(&encoding_rs::EUC_JP.encode(text).0));
+    assert!(refused(&encoding_rs::WINDOWS_1251.encode("Имя,h\nВаза,3\n").0));
 }
 
 #[test]
@@ -61,6 +65,9 @@ fn what_is_no_table_is_refused_by_what_it_is() {
         (b"%PDF-1.7\n".to_vec(), "a PDF"),
         (b"<!DOCTYPE html>\n<html>404</html>\n".to_vec(), "a web page"),
         (b"PAR1\x15\x04".to_vec(), "Parquet"),
+        (b"{\"a\": [1]}\n".to_vec(), "JSON"),
+        (zip(&[("[Content_Types].xml", b"/word/document.xml")]), "a Word document"),
+        (b"\xd0\xcf\x11\xe0E\0n\0c\0r\0y\0p\0t\0e\0d\0P\0a\0c\0k\0a\0g\0e\0".to_vec(), "a password"),
         (gzip(b"pga_g,AFE\n0.1,0.2\n")[..20].to_vec(), "Damaged"),
         (b"\x00\x01\x02\x03".to_vec(), "binary data"),
         (b"name,h\nrack,2\n\"shelf,3\nbox,4\n".to_vec(), "Quote { line: 3 }"),

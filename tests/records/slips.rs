@@ -40,7 +40,14 @@ fn what_is_meant_is_read() {
         (lines("n,time,x", G, |k, a| format!("{k},{:.2},{a:.6}", time(k))), "unit=g column=x"),
         (lines("# time acc_g", G, |k, a| format!("{:.2} {a:.6}", time(k))), ""),
         (lines("# dt = 0.01 s", G, |_, a| format!("{a:.6}")), "unit=g"),
+        (format!("matched\n1600 0.01 656\n{wrapped}"), "unit=m/s2 column=all"),
         (wrapped, "unit=m/s2 dt=0.01 column=all"),
+        (lines("n,acc_g", G, |k, a| format!("{k},{a:.6}")), "dt=0.01"),
+        (lines("# sampling rate: 100 sps\nacc (g)", G, sample), ""),
+        (
+            lines("SAMPLING INTERVAL (sec) : 0.01\nN-S  E-W", 1.0, |_, a| format!("{a:.6} {a:.6}")),
+            "unit=m/s2 column=1",
+        ),
         (csv("time,acc_g", G).replace(',', ";").replace('.', ",").replace('-', "\u{2212}"), ""),
         (csv("time (s),acc (g)", G).replace(',', " ").replace('.', ",").replace('\n', "\r\n"), ""),
         (lines("time,acc_g", G, |k, a| format!("{:.1},{a:.6}", time(k))), "dt=0.01"),
@@ -88,7 +95,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (bare(""), "unit=g", "Missing { line: 2, field: \"time step\""),
         (at2(IN_G, "NPTS= 103"), "", "Missing { line: 4, field: \"time step\""),
         (csv("# dt = 0.005 s\ntime,acc_g", G), "", "Contradiction { line: 3, field: \"time step\""),
-        (csv("Period (s),PSA (g)", G), "", "NotAcceleration { line: 2, found: \"'Period (s)': a spectrum"),
+        (csv("Period (s),PSA (g)", G), "", "NotAcceleration { line: 2, found: \"'Period (s)'"),
         // Columns, cells and counts.
         (lines("time,N,E,Z", G, |k, a| format!("{:.2},{a:.6},1,1", time(k))), "unit=g", "Column"),
         (csv("time,acc_g", G).replacen("0.30", "NaN", 1), "", "Cell { line: 32"),
@@ -101,6 +108,8 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (bare("0.1\n"), "unit=g dt=0.01", "ShortLine { line: 2, found: 0"),
         ("0.1\n0.2\n0.1 0.2\n0.3\n".to_string(), "unit=g dt=0.01", "ShortLine { line: 3, found: 2"),
         (bare("0.005"), "unit=g dt=0.01", "Contradiction { line: 1"),
+        (bare("# sampling rate: 200 sps\nacc (g)"), "dt=0.01", "Contradiction { line: 3"),
+        (lines("n,acc_g", G, |k, a| format!("{k},{a:.6}")), "", "Missing { line: 2, field: \"time step\""),
         (csv("#SamplingFrequency(Hz)\n#200\ntime,acc_g", G), "", "Contradiction { line: 4, field: \"time"),
         // Not a record.
         ("Dear colleague,\nplease find attached\n".to_string(), "", "Unrecognised"),

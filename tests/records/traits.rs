@@ -50,6 +50,8 @@ fn numbers_that_touch_are_parted_before_their_sign() {
 #[test]
 fn at2_has_its_count_under_several_names_or_none() {
     let samples = motion(403);
+    let accelerations = at2(&samples, "Accelerations (g)", "403.0 .01 7");
+    assert_eq!(read(&accelerations), read(&at2(&samples, IN_G, "403 .01")));
     for counts in [
         "NPT= 403, DT= .0100",
         "NPTS=403 DT=0.01",
@@ -148,6 +150,12 @@ fn columns_of_directions_are_motions_of_their_own() {
         ("time,ax (g),ay (g),az (g)", G, [None, None]),
         ("t (s),accN (g),accE (g),accZ (g)", G, [Some(0.0), Some(90.0)]),
         ("Time (s),L (g),T (g),V (g)", G, [None, None]),
+        ("time,acc_1 (g),acc_2 (g),acc_up (g)", G, [None, None]),
+        (
+            "# AmplitudeUnit: gal. DC\n# MAX. E: 2~ -1\n# Data: Time N(+); E(+); U(+)",
+            0.01,
+            [Some(0.0), Some(90.0)],
+        ),
     ] {
         let read = read_with(&table(heading, unit, 3, seconds), "").unwrap();
         let (vertical, horizontal): (Vec<_>, Vec<_>) = read.iter().partition(|one| is_vertical(&one.origin));
@@ -165,6 +173,7 @@ fn columns_of_directions_are_motions_of_their_own() {
         (table("time,Base N-S (g),Roof N-S (g)", G, 2, seconds), ""),
         (table("time,N-S1 (g),N-S2 (g)", G, 2, seconds), ""),
         (table("time,acc (g),filtered acc (g)", G, 2, seconds), ""),
+        (table("time,Original Acceleration [g],Matched Acceleration [g]", G, 2, seconds), ""),
         (table("time,acc (g),acc (m/s2)", 1.0, 1, in_both), ""),
         (table("time,NS (g),EW (m/s2)", G, 2, seconds), ""),
     ] {
@@ -182,6 +191,11 @@ fn clocks_are_times_and_no_samples() {
             + &table("#Time,RelativeTime(s),N-S(gal),E-W(gal),U-D(gal)", 0.01, 3, relative),
         table("Time,N-S (gal),E-W (gal),U-D (gal)", 0.01, 3, |k| format!("2020-01-20T20:13:{}", second(k))),
         table("datetime,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("2020-01-20T20:13:{}Z", second(k))),
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("20:13:{} +09:00", second(k))),
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("8:13:{} PM", second(k))),
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("20:13:{:02}:{:03}", k / 100, k % 100 * 10)),
+        table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("{}:{}", 59 + k / 6000, second(k))),
+        table("Date,Time,N-S (gal),E-W (gal)", 0.01, 2, |k| format!("2020-01-20,20:13:{}", second(k))),
         // Over midnight.
         table("time,N-S (gal),E-W (gal)", 0.01, 2, |k| match k.checked_sub(200) {
             None => format!("23:59:{}", second(5800 + k)),

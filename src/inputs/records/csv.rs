@@ -1,6 +1,7 @@
 //! Columns of a table: accelerations, one motion each, with or without times. Headings and comments name
 //! units, time steps and quantities; options of the user must not contradict them.
 
+use chrono::{NaiveTime, Timelike};
 use rockfrag_core::motion::measures::peak;
 use rockfrag_core::records::{Origin, RecordedMotion};
 use rockfrag_core::units::{Quantity, Unit};
@@ -11,6 +12,9 @@ use crate::inputs::words::{is_vertical, joined};
 use crate::inputs::{Grid, Heading, InputError, Result};
 
 const DAY_S: f64 = 86400.0;
+const HOUR_S: f64 = 3600.0;
+/// Notations of the time of day.
+const CLOCKS: [&str; 3] = ["%I:%M:%S%.f%p", "%H:%M:%S%.f", "%H:%M:%S:%3f"];
 /// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
 /// Relative difference of the peaks of two columns up to which they are one motion, such as in two units.
@@ -22,11 +26,8 @@ const USUAL_S: [f64; 9] = [0.001, 0.002, 0.0025, 0.004, 0.005, 0.01, 0.02, 0.04,
 /// Names of horizontal components without an azimuth.
 const HORIZONTAL: [&str; 10] =
     ["L", "T", "R", "LONG", "TRAN", "TRANS", "LONGITUDINAL", "TRANSVERSE", "RADIAL", "TANGENTIAL"];
-/// Words of a heading for a motion that stands beside another state of it.
-const PROCESSED: [&str; 5] = ["filtered", "corrected", "uncorrected", "raw", "processed"];
-/// What is no acceleration over time, and beginnings of words in its headings.
-const OTHERS: [(&str, &[&str]); 2] =
-    [("a spectrum", &["sa", "psa", "psv", "period", "freq", "spectr"]), ("jerk", &["jerk"])];
+/// Words of what is no acceleration over time, or beginnings of four letters or more: spectra, jerk.
+const OTHERS: [&str; 7] = ["sa", "psa", "psv", "period", "freq", "spectr", "jerk"];
 
 struct Samples<'a> {
     grid: Grid,
@@ -41,14 +42,14 @@ struct Samples<'a> {
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let table = Samples::new(Grid::parse(bytes, None)?, options)?;
     if options.column.as_deref() == Some("all") {
-        let step = noted_step(&table.grid.notes);
-        return Ok(vec![table.motion(&Heading::new(""), table.wrapped()?, step)?]);
+        let (samples, step) = table.wrapped()?;
+        return Ok(vec![table.motion(&Heading::new(""), samples, step)?]);
     }
     let columns = match &options.column {
         Some(choice) => vec![table.chosen(choice)?],
         None => table.accelerations()?,
     };
-    table.expect_one_series(false)?;
+    table.expect_one_series(false, 0)?;
     let step = table.step()?;
     let mut motions = Vec::<RecordedMotion>::new();
     for column in columns {
@@ -72,15 +73,23 @@ fn are_unlike_components(motion: &RecordedMotion, other: &RecordedMotion) -> boo
 }
 
 impl Samples<'_> {
-    fn new(grid: Grid, options: &ReadOptions) -> Result<Samples<'_>> {
+    fn new(mut grid: Grid, options: &ReadOptions) -> Result<Samples<'_>> {
         let columns = 0..grid.headings.len();
         if grid.lines.is_empty() || !columns.clone().any(|at| grid.number(0, at).is_ok()) {
             let found = grid.notes.first().or(grid.headings.first().map(|heading| &heading.text));
             return Err(InputError::Unrecognised { found: found.cloned().unwrap_or_default() });
         }
+        let names = grid.notes.iter().find_map(|note| names(note, columns.len()));
+        if let Some(names) = names.filter(|_| !grid.has_headings) {
+            (grid.headings, grid.has_headings) = (names, true);
+        }
         let (quantities, line) = (quantities(&grid), grid.lines[0]);
-        let mut times = columns.filter(|at| quantities[*at] == Some(Quantity::Time));
-        let times = times.clone().find(|at| grid.number(0, *at).is_ok()).or(times.next());
+        let times = columns.filter(|at| quantities[*at] == Some(Quantity::Time));
+        // Numbers rather than a clock, and a clock rather than a date.
+        let times = times.min_by_key(|at| {
+            let [first, last] = [0, grid.lines.len() - 1].map(|row| grid.cell(row, *at));
+            (first == last, grid.number(0, *at).is_err(), clock_s(first).is_none())
+        });
         Ok(Samples { grid, quantities, times, line, options })
     }
 
@@ -102,17 +111,16 @@ impl Samples<'_> {
     /// that may be it.
     fn accelerations(&self) -> Result<Vec<usize>> {
         let headings = &self.grid.headings;
-        if let Some((heading, what)) = headings.iter().find_map(|heading| Some((heading, other(heading)?))) {
-            return Err(self.not_acceleration(format!("'{}': {what}", heading.text)));
+        if let Some(heading) = headings.iter().find(|heading| is_other(heading)) {
+            return Err(self.not_acceleration(format!("'{}'", heading.text)));
         }
         let quantity = |at: &usize| self.quantities[*at];
         let (columns, has_cell) = (0..self.quantities.len(), |at: &usize| !self.grid.cell(0, *at).is_empty());
         let named: Vec<usize> =
             columns.clone().filter(|at| quantity(at) == Some(Quantity::Acceleration)).collect();
         let unknown: Vec<usize> = columns.filter(|at| quantity(at).is_none() && has_cell(at)).collect();
-        let mut words = named.iter().flat_map(|at| headings[*at].name.split('-'));
-        if named.len() > 1 && words.any(|word| PROCESSED.contains(&word)) {
-            // The same motion before and after.
+        if named.len() > 1 && !named.iter().all(|at| is_component(&headings[*at])) {
+            // Perhaps one motion in two states: original and matched.
             return Err(self.which_column());
         }
         let is_direction = |at: &usize| direction(&headings[*at]).is_some();
@@ -144,10 +152,8 @@ impl Samples<'_> {
     /// Finds the unit in the heading, else in a comment on acceleration or units, else among the options.
     fn unit(&self, heading: &Heading) -> Result<Unit> {
         let (options, line) = (self.options, self.line);
-        let notes = self.grid.notes.iter().map(|note| Heading::new(note));
-        let mut notes =
-            notes.filter(|note| ["acc", "unit", "vel", "dis"].iter().any(|word| note.name.contains(word)));
-        let noted = || notes.find_map(|note| note.unit).filter(|_| !heading.is_scaled);
+        let noted =
+            || self.grid.notes.iter().find_map(|note| noted_unit(note)).filter(|_| !heading.is_scaled);
         let is_unknown = heading.is_scaled || heading.text.contains(['(', '[']);
         match heading.unit.or_else(noted) {
             None if is_unknown && options.unit.is_none() => {
@@ -173,12 +179,16 @@ impl Samples<'_> {
         let (mut times, mut decimals) = (Vec::<f64>::new(), 0);
         for row in grid.rows() {
             let cell = grid.cell(row, column);
-            times.push(match clock_s(cell) {
-                // Past midnight.
-                Some(clock) if times.last().is_some_and(|last| clock < last - 0.5 * DAY_S) => clock + DAY_S,
-                Some(clock) => clock,
+            let time = match clock_s(cell) {
+                Some(clock) => match times.last().map_or(0.0, |last| last - clock) {
+                    // Past midnight, or past the hour where the hour is left out.
+                    HOUR_S.. => clock + DAY_S,
+                    back if back > 0.5 * HOUR_S => clock + HOUR_S,
+                    _ => clock,
+                },
                 None => in_s * grid.number(row, column)?,
-            });
+            };
+            times.push(time);
             decimals = decimals.max(decimals_of(cell));
         }
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -220,22 +230,29 @@ impl Samples<'_> {
         Ok(samples)
     }
 
-    /// Reads all cells as one series.
-    fn wrapped(&self) -> Result<Vec<f64>> {
-        self.expect_one_series(true)?;
-        let rows = self.grid.rows();
-        let cells = rows.flat_map(|row| (0..self.quantities.len()).map(move |column| (row, column)));
-        let filled = cells.filter(|(row, column)| !self.grid.cell(*row, *column).is_empty());
-        filled.map(|(row, column)| self.grid.number(row, column)).collect()
+    /// Reads all cells as one series, and the time step (s) in a comment or above it, behind the number of
+    /// samples: `2000 0.01`.
+    fn wrapped(&self) -> Result<(Vec<f64>, Option<f64>)> {
+        let (grid, columns) = (&self.grid, self.quantities.len());
+        let cells = grid.rows().flat_map(|row| (0..columns).map(move |column| (row, column)));
+        let filled: Vec<_> = cells.filter(|(row, column)| !grid.cell(*row, *column).is_empty()).collect();
+        let above = filled.iter().filter(|(row, _)| *row == 0).count();
+        let is_header = above < columns && grid.number(0, 0).ok() == Some((filled.len() - above) as f64);
+        let skipped = usize::from(is_header);
+        self.expect_one_series(true, skipped)?;
+        let step = (is_header && above > 1).then(|| grid.number(0, 1)).transpose()?;
+        let samples = filled.iter().filter(|(row, _)| *row >= skipped);
+        let samples = samples.map(|(row, column)| grid.number(*row, *column)).collect::<Result<_>>()?;
+        Ok((samples, noted_step(&grid.notes).or(step)))
     }
 
     /// Refuses samples without times among which another line stands, a line of more cells than the first, and
     /// a short line of wrapped ones before the last: another series may begin there, or the file is damaged.
-    fn expect_one_series(&self, is_wrapped: bool) -> Result<()> {
+    fn expect_one_series(&self, is_wrapped: bool, skipped: usize) -> Result<()> {
         let (grid, columns) = (&self.grid, self.quantities.len());
         let filled = |row: usize| (0..columns).take_while(|&at| !grid.cell(row, at).is_empty()).count();
         let expected = if is_wrapped || grid.has_headings { columns } else { filled(0) };
-        for (row, &line) in grid.lines.iter().enumerate() {
+        for (row, &line) in grid.lines.iter().enumerate().skip(skipped) {
             let (found, next) = (filled(row), grid.lines.get(row + 1));
             if found > expected || is_wrapped && found < expected && next.is_some() {
                 return Err(InputError::ShortLine { line, found, expected });
@@ -261,15 +278,29 @@ fn decimals_of(cell: &str) -> usize {
     cell.split(['.', ',']).nth(1).map_or(0, str::len)
 }
 
-/// Finds the quantity of each column from its heading. An unnamed first column that rises is time.
+/// The names of columns that a comment has behind a colon: `DataSequence: Time U(+); N(+); E(+)`.
+fn names(note: &str, columns: usize) -> Option<Vec<Heading>> {
+    let words = note.split_once(':')?.1.split([' ', ';', ',']).filter(|word| !word.is_empty());
+    let names: Vec<Heading> = words.map(Heading::new).collect();
+    let is_name = |name: &Heading| direction(name).is_some() || quantity(name, false).is_some();
+    (names.len() == columns && names.iter().all(is_name)).then_some(names)
+}
+
+/// Finds the quantity of each column from its heading. An unnamed first column that rises is time, unless its
+/// numbers count the samples.
 fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
     let are_components = grid.headings.iter().any(|heading| matches!(&*heading.name, "l" | "r"));
     let mut quantities: Vec<Option<Quantity>> =
         grid.headings.iter().map(|heading| quantity(heading, are_components)).collect();
     if quantities.len() > 1 && quantities[0].is_none() && !quantities.contains(&Some(Quantity::Time)) {
-        let is_time = clock_s(grid.cell(0, 0)).is_some()
-            || grid.numbers(0).is_ok_and(|times| times.is_sorted_by(|time, next| time < next));
-        quantities[0] = is_time.then_some(Quantity::Time);
+        let numbers = grid.numbers(0).unwrap_or_default();
+        let mut steps = numbers.windows(2).map(|pair| pair[1] - pair[0]).peekable();
+        let has_clock = clock_s(grid.cell(0, 0)).is_some();
+        quantities[0] = match steps.peek().copied() {
+            Some(1.0) if steps.all(|step| step == 1.0) => Some(Quantity::Counts),
+            Some(_) if numbers.is_sorted_by(|time, next| time < next) => Some(Quantity::Time),
+            _ => Some(Quantity::Time).filter(|_| has_clock),
+        };
     }
     quantities
 }
@@ -290,13 +321,9 @@ fn quantity(heading: &Heading, are_components: bool) -> Option<Quantity> {
     named.or(own)
 }
 
-/// What a heading is about that is no acceleration over time.
-fn other(heading: &Heading) -> Option<&'static str> {
-    let has_word = |start: &str| {
-        let mut words = heading.name.split('-');
-        words.any(|word| word == start || start.len() > 3 && word.starts_with(start))
-    };
-    OTHERS.into_iter().find(|(_, starts)| starts.iter().any(|start| has_word(start))).map(|(what, _)| what)
+fn is_other(heading: &Heading) -> bool {
+    let is = |word: &str, of: &str| word == of || of.len() > 3 && word.starts_with(of);
+    heading.name.split('-').any(|word| OTHERS.iter().any(|of| is(word, of)))
 }
 
 /// The word of a heading that names a direction: N-S, acc_EW, UD (gal), az, acc 90 deg.
@@ -318,26 +345,53 @@ fn direction(heading: &Heading) -> Option<&str> {
     })
 }
 
-/// Reads the time of day, s, in a cell such as `2020/01/20 20:13:20.01` or `20:13:20.01Z`.
-fn clock_s(cell: &str) -> Option<f64> {
-    let (_, time) = cell.rsplit_once([' ', 'T']).unwrap_or(("", cell));
-    let mut parts = time.trim_end_matches('Z').split(':').map(|part| part.parse::<f64>().ok());
-    let (hours, minutes, seconds) = (parts.next()??, parts.next()??, parts.next()??);
-    Some(3600.0 * hours + 60.0 * minutes + seconds)
+/// Whether a heading has the name of a component alone, or a number: H1, ax, HNE, acc_2.
+fn is_component(heading: &Heading) -> bool {
+    let last = heading.bare.trim().rsplit([' ', '_', '.']).next().unwrap_or_default();
+    let is_code = last.len() == 3 && last.ends_with(['E', 'N']);
+    let is_numbered = last.ends_with(|sign: char| sign.is_ascii_digit());
+    direction(heading).is_some() || is_code || is_numbered || matches!(last.len(), 1 | 2)
 }
 
-/// Reads the time step (s) by a comment such as `dt = 0.01 s`, or `SamplingFrequency(Hz): 100`, perhaps with
-/// the number in the same place of the next one.
+/// Reads the time of day, s, in a cell such as `2020/01/20 20:13:20.01Z` or `8:13:20.01 PM`, or that within
+/// the hour in `13:20.01`.
+fn clock_s(cell: &str) -> Option<f64> {
+    let date = cell[..cell.find(':')?].trim_end_matches(|sign: char| sign.is_ascii_digit());
+    let time = cell[date.len()..].replace(',', ".");
+    let end = time.find(|sign: char| !sign.is_ascii_digit() && !":.".contains(sign)).unwrap_or(time.len());
+    let (clock, zone) = (&time[..end], time[end..].trim());
+    let half = Some(zone).filter(|zone| ["am", "pm"].contains(&zone.to_lowercase().as_str()));
+    let hour = if clock.matches(':').count() == 1 { "0:" } else { "" };
+    let clock = format!("{hour}{clock}{}", half.unwrap_or_default());
+    let time = CLOCKS.into_iter().find_map(|format| NaiveTime::parse_from_str(&clock, format).ok())?;
+    Some(f64::from(time.num_seconds_from_midnight()) + 1e-9 * f64::from(time.nanosecond()))
+}
+
+/// Reads the unit in a comment that speaks of units, acceleration, or what is none.
+fn noted_unit(note: &str) -> Option<Unit> {
+    let Heading { name, unit, .. } = Heading::new(note);
+    let word = || note.split([':', '=']).nth(1)?.split_whitespace().next().and_then(Unit::parse);
+    let is_meant = ["acc", "unit", "vel", "displ"].iter().any(|word| name.contains(word));
+    unit.or_else(|| word().filter(|_| name.contains("unit"))).filter(|_| is_meant)
+}
+
+/// Reads the time step (s) by a comment such as `dt = 0.01 s`, `Sampling rate: 100 sps`, or
+/// `SamplingFrequency(Hz)`, perhaps with the number in the same place of the next one.
 fn noted_step(notes: &[String]) -> Option<f64> {
+    let has = |name: &str, words: &[&str]| words.iter().any(|word| name.contains(word));
+    let is_rate = |name: &str| has(name, &["fs-", "hz", "sps", "rate", "freq", "per-s"]);
+    let is_step = |name: &str| {
+        let is_named = ["dt-", "fs-", "time-step", "time-interval"].iter().any(|key| name.starts_with(key));
+        let is_measure = is_rate(name) || has(name, &["interval", "step", "period"]);
+        is_named || name.contains("sampl") && is_measure
+    };
     notes.iter().enumerate().find_map(|(at, note)| {
-        let heading = Heading::new(note);
-        if heading.name.starts_with("dt-") {
-            return Some(first_number(note)? * heading.unit.map_or(1.0, |unit| unit.si));
-        }
-        let mut cells = note.split(',').map(str::to_lowercase);
-        let place = cells.position(|cell| cell.contains("sampling") && cell.contains("hz"))?;
-        let both = [Some(note), notes.get(at + 1)].into_iter().flatten();
-        let mut numbers = both.filter_map(|note| note.split(',').nth(place).and_then(first_number));
-        numbers.next().filter(|frequency| *frequency > 0.0).map(|frequency| 1.0 / frequency)
+        let mut names = note.split(',').map(|cell| joined(cell) + "-").enumerate();
+        let (place, name) = names.find(|(_, name)| is_step(name))?;
+        let mut cells = notes[at..].iter().take(2).filter_map(|note| note.split(',').nth(place));
+        let unit = Heading::new(cells.clone().next()?).unit;
+        let number = cells.find_map(first_number).filter(|number| *number > 0.0)?;
+        let in_s = unit.filter(|unit| unit.quantity == Quantity::Time).map_or(1.0, |unit| unit.si);
+        Some(if is_rate(&name) { number.recip() } else { number * in_s })
     })
 }

@@ -35,7 +35,7 @@ pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64> {
 
 /// Returns the unit at the start of a text, after which more may follow, else the given one; see [`unit`].
 pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit> {
-    let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ';');
+    let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ')' | ';');
     let found = text.map(|text| {
         let unit = text.trim_start().split(ends).next().and_then(Unit::parse);
         unit.ok_or_else(|| InputError::value(line, "unit", text, ACCELERATION))

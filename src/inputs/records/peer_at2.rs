@@ -18,18 +18,21 @@ pub fn recognises(lines: &[&str]) -> bool {
     line_of_counts(lines).is_some()
 }
 
-/// Finds the line with NPTS (or NPT) and DT, or with the two numbers alone below the unit.
+/// Finds the line with NPTS (or NPT) and DT, or with numbers alone below the unit.
 fn line_of_counts(lines: &[&str]) -> Option<usize> {
     let header = &lines[..lines.len().min(HEADER)];
     let named = header.iter().position(|line| after(line, "NPT").is_some());
-    let unit = header.iter().position(|line| after(line, "UNITS OF").is_some());
+    let unit = header.iter().position(|line| unit_words(line).is_some());
     named.or(unit.map(|at| at + 1).filter(|at| header.get(*at).is_some_and(|line| are_counts(line))))
 }
 
-/// Whether a line has a number of samples and a time step, and nothing else.
+/// Whether a line has a number of samples, a time step, perhaps a third number, and nothing else.
 fn are_counts(line: &str) -> bool {
     let words: Vec<&str> = line.split_ascii_whitespace().collect();
-    matches!(words[..], [count, step] if count.parse::<usize>().is_ok() && step.parse::<f64>().is_ok())
+    let is_count = |word: &&str| word.trim_end_matches(".0").parse().is_ok_and(|count: usize| count > 1);
+    matches!(words.len(), 2 | 3)
+        && is_count(&words[0])
+        && words.iter().all(|word| word.parse::<f64>().is_ok())
 }
 
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
@@ -43,7 +46,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
         return Err(InputError::NotAcceleration { line, found: text.trim().to_string() });
     }
     let (unit, line) =
-        header.iter().zip(1..).find_map(|(line, number)| Some((after(line, "UNITS OF")?, number))).unzip();
+        header.iter().zip(1..).find_map(|(line, number)| Some((unit_words(line)?, number))).unzip();
     let unit = unit_of(unit, options, line.unwrap_or(3))?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
     let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
@@ -74,6 +77,12 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
         header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), G_M_S2)),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
+}
+
+/// The text behind what announces a unit: `IN UNITS OF G`, `Accelerations (g)`.
+fn unit_words(line: &str) -> Option<&str> {
+    let is_alone = line.trim_start().get(..5).is_some_and(|start| start.eq_ignore_ascii_case("accel"));
+    after(line, "UNITS OF").or_else(|| after(line, "(").filter(|_| is_alone))
 }
 
 /// The number behind a name: of `NPTS=  7818`.
