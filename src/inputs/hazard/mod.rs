@@ -162,17 +162,21 @@ impl Found {
         }
         let mut said = if is_exported { Said::default() } else { Said::new(&grid)? };
         let columns = (0..).zip(&grid.headings).map(|(at, heading)| HazardColumn::new(at, heading, &said));
-        let columns: Vec<HazardColumn> = columns.collect();
-        let exported = if is_exported { Some(openquake::probabilities(&grid, path)?) } else { None };
+        let mut columns: Vec<HazardColumn> = columns.collect();
         let occurrence = columns.iter().position(|column| column.frequency == Some(Frequency::Occurrence));
         let is_joint = are_fields || occurrence.is_some();
-        let meanings = columns.iter().map(|column| match &exported {
-            Some(curve) if grid.headings[column.at].text.starts_with("poe-") => {
-                Ok(Meaning::Known(format!("{}, {}", curve.measure, curve.statistic)))
+        let others = columns.iter().map(|column| said.meaning(&grid, column, is_joint));
+        let mut meanings = others.collect::<Result<Vec<Meaning>>>()?;
+        let exported = if is_exported { Some(openquake::probabilities(&grid, path)?) } else { None };
+        let are_named = columns.iter().any(|column| column.frequency.and(column.measure).is_some());
+        for column in columns.iter_mut().filter(|column| column.is_of_curve()) {
+            if column.unit.is_some() && !are_named {
+                column.measure = Some(said.measure(column.measure, path)?);
             }
-            _ => said.meaning(&grid, column, is_joint),
-        });
-        let meanings = meanings.collect::<Result<Vec<Meaning>>>()?;
+            let poe =
+                exported.as_ref().map(|curve| format!("probability, {}, {}", curve.measure, curve.statistic));
+            meanings[column.at] = Meaning::Known(poe.unwrap_or(column.to_string()));
+        }
         if let Some(curve) = exported {
             self.add_curve(curve)?;
         } else if is_joint {
@@ -196,8 +200,8 @@ impl Found {
         said.expect_one_of(&measures)?;
         let are_unnamed = columns.iter().all(|column| column.statistic.is_none());
         let told = said.statistic.filter(|told| are_unnamed || *told == Statistic::Median);
-        let (before, mut single) =
-            (self.curves.len(), Vec::from_iter(columns.iter().filter(|one| one.is_of_curve())));
+        let before = self.curves.len();
+        let mut single = Vec::from_iter(columns.iter().filter(|column| column.is_of_curve()));
         for ([values, rates], named) in pairs.iter().zip(named) {
             let Some((measure, statistic)) = named else { continue };
             single.retain(|column| ![values.at, rates.at].contains(&column.at));
@@ -211,10 +215,8 @@ impl Found {
             return Err(not_understood(grid, columns, !pairs.is_empty()));
         }
         let expected = "a column of rates, probabilities or return periods beside each of values";
-        let single = single
-            .first()
-            .map(|column| Err(InputError::unexpected(grid.headings[column.at].text.clone(), expected)));
-        single.unwrap_or(Ok(()))
+        let found = single.first().map(|column| grid.headings[column.at].text.clone());
+        found.map_or(Ok(()), |found| Err(InputError::unexpected(found, expected)))
     }
 
     /// Adds motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or
@@ -347,37 +349,21 @@ fn pairs(columns: &[HazardColumn]) -> Vec<[&HazardColumn; 2]> {
     values.iter().flat_map(|values| rates.iter().map(|rates| [*values, *rates])).collect()
 }
 
-/// The error of a table without a curve of use: a spectrum, a row of levels without a measure, or the heading
-/// that is not understood first.
+/// The error of a table without a curve of use, with the heading that is not understood first.
 fn not_understood(grid: &Grid, columns: &[HazardColumn], has_pairs: bool) -> InputError {
-    let others = columns.iter().filter(|column| !column.is_of_curve());
-    let mut others = others.map(|column| &grid.headings[column.at]);
-    // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
-    let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
-    if !has_pairs && (is_uniform || others.clone().any(|heading| means(&heading.name, "spectral-period"))) {
-        let found = "a uniform hazard spectrum: one rate, many periods";
-        return InputError::unexpected(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
-    }
-    let levels: Vec<f64> = grid.headings.iter().filter_map(|heading| heading.text.parse().ok()).collect();
-    if let [first, _, .., last] = levels[..] {
-        let found = format!("a column for each level from {first} to {last}");
-        let expected = "to know of which measure, and whether rates or probabilities: a row for each level, \
-                        under pga_g and annual_rate_of_exceedance";
-        return InputError::unexpected(found, expected);
-    }
-    let mut values = columns.iter().filter(|column| column.unit.is_some());
-    let expected = if has_pairs {
-        "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
-    } else if values.next().is_none() {
-        "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns pga_g=HEADING"
-    } else {
-        "annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period, by name or by \
-         --columns annual_rate_of_exceedance=HEADING"
+    let expected = match has_pairs {
+        true => "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA",
+        false => {
+            "a row for each intensity: PGA (g), PGV (m/s) or SA(1.0 s) (g), and annual_rate_of_exceedance, \
+             probability_of_exceedance_in_50_years or return_period; --columns pga_g=HEADING names one"
+        }
     };
-    let is_unknown = |heading: &&Heading| {
-        !(heading.text.is_empty() || means(&heading.name, "place") || means(&heading.name, "magnitude"))
+    let is_unknown = |column: &&HazardColumn| {
+        let heading = &grid.headings[column.at];
+        !(column.is_of_curve() || heading.text.is_empty() || means(&heading.name, "place"))
     };
-    InputError::not_understood(others.find(is_unknown).map(|heading| &*heading.text), expected, grid.found())
+    let unknown = columns.iter().find(is_unknown).map(|column| &*grid.headings[column.at].text);
+    InputError::not_understood(unknown, expected, grid.found())
 }
 
 /// The points of a column of values and one of frequencies.

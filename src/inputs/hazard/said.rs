@@ -89,7 +89,7 @@ impl Said {
         let cells: BTreeSet<&str> = grid.rows().filter_map(|row| grid.value(row, column.at)).collect();
         let mut cells = cells.into_iter();
         Ok(match (cells.next(), cells.next()) {
-            _ if column.is_of_curve() => Meaning::Known(column.to_string()),
+            _ if column.is_of_curve() => Meaning::default(),
             _ if is("place") => Meaning::Known("site".to_string()),
             _ if is_joint && is("magnitude") => Meaning::Known("magnitude".to_string()),
             _ if is_joint && is("field") => Meaning::Kept,
