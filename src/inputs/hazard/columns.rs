@@ -133,7 +133,7 @@ impl HazardColumn {
         // A fractile may stand behind the unit: pga_g_16.
         let ranked =
             heading.bare.rsplit_once('_').filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
-        let ranked = ranked.map(|(text, rank)| (Heading::new(text), rank));
+        let ranked = ranked.filter(|_| heading.unit.is_none()).map(|(text, rank)| (Heading::new(text), rank));
         let (own, rank) = ranked.as_ref().map_or((heading, ""), |(own, rank)| (own, *rank));
         let own_unit = own.unit.or(heading.unit);
         let mut phrase = Phrase::new(&match own_unit {

@@ -19,7 +19,7 @@ pub use self::columns::{contradict, peak};
 use self::said::Said;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
-use super::{Grid, Heading, InputError, Meaning, Reader, Result};
+use super::{Grid, InputError, Meaning, Reader, Result};
 use crate::number::period;
 use crate::source;
 
@@ -200,19 +200,24 @@ impl Found {
         said.expect_one_of(&measures)?;
         let are_unnamed = columns.iter().all(|column| column.statistic.is_none());
         let told = said.statistic.filter(|told| are_unnamed || *told == Statistic::Median);
-        let before = self.curves.len();
+        let (before, mut other) = (self.curves.len(), None);
         let mut single = Vec::from_iter(columns.iter().filter(|column| column.is_of_curve()));
         for ([values, rates], named) in pairs.iter().zip(named) {
             let Some((measure, statistic)) = named else { continue };
             single.retain(|column| ![values.at, rates.at].contains(&column.at));
             let measure = said.measure(measure, file)?;
-            if matches!(measure, Imt::Pga | Imt::Pgv | Imt::SA_1S) {
-                let of = (measure, statistic.or(told).unwrap_or(Statistic::Mean));
-                self.add_curve(Curve::new(of, points(grid, values, rates)?, grid, file)?)?;
+            match measure {
+                Imt::Pga | Imt::Pgv | Imt::SA_1S => {
+                    let of = (measure, statistic.or(told).unwrap_or(Statistic::Mean));
+                    self.add_curve(Curve::new(of, points(grid, values, rates)?, grid, file)?)?;
+                }
+                Imt::Spectral(_) => other = Some(measure),
             }
         }
         if before == self.curves.len() {
-            return Err(not_understood(grid, columns, !pairs.is_empty()));
+            let expected = "that of PGA: of spectral accelerations only SA(1.0 s) is of use, beside PGA";
+            let refusal = |of: Imt| InputError::unexpected(format!("a curve of {of}"), expected);
+            return Err(other.map_or_else(|| not_understood(grid, columns), refusal));
         }
         let expected = "a column of rates, probabilities or return periods beside each of values";
         let found = single.first().map(|column| grid.headings[column.at].text.clone());
@@ -349,15 +354,11 @@ fn pairs(columns: &[HazardColumn]) -> Vec<[&HazardColumn; 2]> {
     values.iter().flat_map(|values| rates.iter().map(|rates| [*values, *rates])).collect()
 }
 
-/// The error of a table without a curve of use, with the heading that is not understood first.
-fn not_understood(grid: &Grid, columns: &[HazardColumn], has_pairs: bool) -> InputError {
-    let expected = match has_pairs {
-        true => "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA",
-        false => {
-            "a row for each intensity: PGA (g), PGV (m/s) or SA(1.0 s) (g), and annual_rate_of_exceedance, \
-             probability_of_exceedance_in_50_years or return_period; --columns pga_g=HEADING names one"
-        }
-    };
+/// The error of a table without a curve, with the heading that is not understood first.
+fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
+    let expected = "a row for each intensity: PGA (g), PGV (m/s) or SA(1.0 s) (g), and \
+                    annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period; \
+                    --columns pga_g=HEADING names one";
     let is_unknown = |column: &&HazardColumn| {
         let heading = &grid.headings[column.at];
         !(column.is_of_curve() || heading.text.is_empty() || means(&heading.name, "place"))

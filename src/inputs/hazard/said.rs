@@ -50,8 +50,8 @@ impl Said {
             let is_of_unit = before < self.measures.len() || words.iter().any(|word| means(word, "unit"));
             self.units.extend(heading.unit.filter(|_| is_of_unit));
         }
-        let text = parted(&text.replace('%', " "));
-        let mut words: Vec<&str> = text.split_whitespace().filter(|word| *word != "th").collect();
+        let all = parted(&text.replace('%', " "));
+        let mut words: Vec<&str> = all.split_whitespace().filter(|word| *word != "th").collect();
         let is_fractile =
             |words: &[&str]| (0..words.len()).any(|at| words[at] == "median" || is_ranked(words, at));
         if words.contains(&"vertical") && !words.contains(&"horizontal") {
