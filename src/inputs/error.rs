@@ -29,7 +29,7 @@ pub enum InputError {
     Cell { line: usize, heading: String, found: String, expected: String },
     #[error("line {line}, column '{heading}': '{found}': {question}")]
     Unclear { line: usize, heading: String, found: String, question: &'static str },
-    #[error("'{heading}' and '{unit}' have different units")]
+    #[error("'{heading}' and '{unit}' contradict each other: a unit, years or a measure")]
     Units { heading: String, unit: String },
     #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
     Heading { heading: String, expected: &'static str, found: String },

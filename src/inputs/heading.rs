@@ -29,7 +29,9 @@ impl Heading {
             Some((bare, unit)) => (bare, unit, unit.is_none()),
             None => (plain.to_string(), None, false),
         };
-        let is_percent = unit.is_none() && plain.contains('%');
+        // That behind a number is of a fractile: 16 %.
+        let is_of_number = |at: usize| plain[..at].trim_end().ends_with(|sign: char| sign.is_ascii_digit());
+        let is_percent = unit.is_none() && plain.match_indices('%').any(|(at, _)| !is_of_number(at));
         Heading { text: text.to_string(), name: joined(&bare), bare, unit, is_scaled, is_percent }
     }
 

@@ -9,17 +9,27 @@ use rockfrag_core::motion::{Peaks, validate_medians};
 use rockfrag_core::units::Quantity;
 use rockfrag_core::warning::{Warning, Warnings};
 
-use super::hazard::peak;
+use super::hazard::{expect_understood, peak};
 use super::objects::describes_object;
 use super::words::{is_vertical, means};
-use super::{Grid, Heading, InputError, Reader, Result};
+use super::{Grid, Heading, InputError, Meaning, Reader, Result};
+use crate::table::dictionary;
 
-/// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings.
+/// Reads the columns of a table: numbers where all cells are, else text. Peaks keep their headings, and are
+/// null where they are missing.
 pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>> {
-    reader.read(path).and_then(|grid| columns(&grid)).map_err(|error| error.in_file(path))
+    let read = reader.read(path).and_then(|grid| {
+        expect_intensities(&grid)?;
+        let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
+        let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
+        expect_understood(&grid, &meanings)?;
+        reader.tell(path, &grid, meanings);
+        Ok(columns)
+    });
+    read.map_err(|error| error.in_file(path))
 }
 
-fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>> {
+fn expect_intensities(grid: &Grid) -> Result<()> {
     if let Some(heading) = grid.headings.iter().find(|heading| describes_object(heading)) {
         let found = format!("column '{}', which describes an object", heading.text);
         let expected = "peaks, mw, p_rad_s, alpha_rad and eta: describe one object by options, or list objects \
@@ -35,24 +45,39 @@ fn columns(grid: &Grid) -> Result<Vec<(String, ArrayRef)>> {
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));
     }
-    expect_motions_alone(grid)?;
-    let mut columns = Vec::new();
-    for (at, heading) in grid.headings.iter().enumerate() {
-        let rows = grid.rows();
-        let (known, is_peak) = (known(heading)?, peak(heading).is_some());
-        let (name, size) = known.unwrap_or((&heading.text, 1.0));
-        let numbers = rows.clone().map(|row| match grid.value(row, at) {
-            None if !is_peak => Ok(None),
-            _ => grid.number(row, at).map(|number| Some(size * number)),
-        });
-        let cells: ArrayRef = match numbers.collect::<Result<Vec<_>, _>>() {
-            Ok(numbers) => Arc::new(Float64Array::from(numbers)),
-            Err(error) if is_peak || known.is_some() => return Err(error),
-            Err(_) => Arc::new(StringArray::from_iter_values(rows.map(|row| grid.cell(row, at)))),
-        };
-        columns.push((name.to_string(), cells));
+    expect_motions_alone(grid)
+}
+
+/// A column under its name, and what it says.
+fn column(grid: &Grid, at: usize) -> Result<((String, ArrayRef), Meaning)> {
+    let heading = &grid.headings[at];
+    let (known, peak) = (known(heading)?, peak(heading));
+    // A unit that stands below the heading becomes a part of it.
+    let with_unit = heading.unit.map(|unit| format!("{} ({})", heading.text, unit.name));
+    let has_own_unit = Heading::new(&heading.text).unit.is_some();
+    let text = with_unit.filter(|_| peak.is_some() && !has_own_unit).unwrap_or(heading.text.clone());
+    let (name, size) = known.map_or((text, 1.0), |(name, size)| (name.to_string(), size));
+    let is_kept = ["place", "distance", "record", "record-number", "earthquake", "remark"];
+    let meaning = match (known, peak) {
+        (Some((name, _)), _) => Meaning::Known(name.to_string()),
+        (_, Some((peak, _))) => Meaning::Known(peak.to_string()),
+        _ if dictionary::entry(&heading.text).is_some() => Meaning::Known(heading.text.clone()),
+        _ if is_kept.iter().any(|meaning| means(&heading.name, meaning)) => Meaning::Kept,
+        _ => Meaning::NotUnderstood,
+    };
+    match grid.known(Some(at), &name) {
+        Ok(numbers) => {
+            let numbers = numbers.into_iter().map(|number| number.map(|number| size * number));
+            let is_empty = grid.rows().all(|row| grid.value(row, at).is_none());
+            let meaning = if is_empty && meaning == Meaning::NotUnderstood { Meaning::Kept } else { meaning };
+            Ok(((name, Arc::new(Float64Array::from_iter(numbers))), meaning))
+        }
+        Err(error) if known.is_some() || peak.is_some() => Err(error),
+        Err(_) => {
+            let cells = grid.rows().map(|row| grid.cell(row, at));
+            Ok(((name, Arc::new(StringArray::from_iter_values(cells))), Meaning::Kept))
+        }
     }
-    Ok(columns)
 }
 
 /// The column that a heading names, and its unit in rad/s, rad or s.
@@ -79,8 +104,8 @@ fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.
 pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64)> {
     let (own, expected) = match wanted {
-        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING reader one"),
-        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING reader one"),
+        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING names one"),
+        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING names one"),
     };
     let found = names.iter().filter_map(|name| {
         let (peak, unit) = peak(&Heading::new(name))?;

@@ -6,6 +6,7 @@ use std::str::FromStr;
 
 use super::error::{InputError, Result};
 use super::grid::Grid;
+use super::hazard::contradict;
 use super::heading::Heading;
 use super::reading::{Meaning, Reading};
 
@@ -62,7 +63,8 @@ impl<'a> Reader<'a> {
         for heading in &mut grid.headings {
             let Some(column) = self.renamed(&heading.text) else { continue };
             let wanted = Heading::new(column);
-            if heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old != new) {
+            let is_other = heading.unit.zip(wanted.unit).is_some_and(|(old, new)| old != new);
+            if is_other || contradict(heading, &wanted) {
                 return Err(InputError::Units { heading: heading.text.clone(), unit: column.to_string() });
             }
             let unit = wanted.unit.or(heading.unit);

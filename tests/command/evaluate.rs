@@ -47,6 +47,7 @@ fn slips_are_refused_or_warned() {
         ("sign.csv", "pga_g,annual rate (%)\n0.1,1.8\n1,0.02\n"),
         ("units.csv", "PGA (g),PGV (m/s)\n4,0.5\n5,0.6\n6,0.7\n"),
         ("mean.csv", "station,PGA (g),PGV (m/s),component\na,0.4,0.5,NS\nmean,0.45,0.55,\n"),
+        ("more.csv", "PGA (g),PGV (m/s),PGD (cm)\n0.4,0.5,6\n"),
         ("up.csv", "station,PGA (g),PGV (m/s),component\na,0.4,0.5,NS\nb,0.5,0.6,UD\n"),
     ]);
     for (arguments, code, named) in [
@@ -62,6 +63,7 @@ fn slips_are_refused_or_warned() {
         (&format!("{BLOCK} --in both.csv"), 2, vec!["both.csv", "p_rad_s"]),
         (&format!("{BLOCK} --in units.csv"), 1, vec!["units.csv", "m/s2"]),
         (&format!("{BLOCK} --in mean.csv"), 1, vec!["line 3", "mean"]),
+        (&format!("{BLOCK} --in more.csv"), 1, vec!["PGD (cm)", "--ignore"]),
         (&format!("{BLOCK} --in up.csv"), 1, vec!["line 3", "UD"]),
         (&format!("{BLOCK} --pga 0.4 --columns pga_g=PGA"), 2, vec!["--columns"]),
         (&format!("{BLOCK} --hazard hazard.csv --over pgv"), 2, vec!["over", "pgv"]),
@@ -174,9 +176,10 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
         let is_warned = found["warnings"].as_str().is_some_and(|text| text.contains(Warning::AtRim.text()));
         assert_eq!(is_warned, (2..5).contains(&row), "row {row}");
     }
-    let stations = "station,PGA (g),PGV (m/s),PGD (cm),distance (km)\na,0.4,0.5,8,12\n";
+    let stations = "station,PGA,PGV,PGD,distance (km)\n,g,m/s,,\na,0.4,0.5,8,12\nb,0.4,-999,,\n";
     std::fs::write(folder.path().join("stations.csv"), stations).unwrap();
-    assert_eq!(rows("stations.csv").len(), 1);
+    let stations = rows("stations.csv --ignore PGD");
+    assert!(number(&stations[0], "p_f") > 0.0 && stations[1]["p_f"].is_null());
     // A magnitude holds for rows without one.
     let with = evaluated(folder.path(), &format!("{BLOCK} --pga 0.4 --pgv 0.5 --magnitude 7.5"));
     let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_f");

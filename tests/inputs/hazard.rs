@@ -76,6 +76,12 @@ fn one_curve_is_one_curve_however_it_is_written() {
         table("periodo de retorno (años);PGA (g)", |a| format!("{};{a}", 1.0 / rate(a))),
         table("return_period,a_g [g]", |a| format!("{},{a}", 1.0 / rate(a))),
         table("TR (years);PGA (cm/s2)", |a| format!("{};{}", comma(1.0 / rate(a)), comma(a * 981.0))),
+        table("# imt: PGA [g]; investigation time: 50 years\niml;poe", |a| format!("{a};{}", poe(50.0, a))),
+        table("# Peak ground acceleration [m/s2]\nPGA,AFE", |a| format!("{},{}", a * G_M_S2, rate(a))),
+        table("imt,level (g),AFE", |a| format!("PGA,{a},{}", rate(a))),
+        table("component,kind,PGA (g),AFE,remark", |a| format!("horizontal,mean,{a},{},{a} g", rate(a))),
+        table("period (s),Ground Motion (g),AFE", |a| format!("0,{a},{}", rate(a))),
+        table("PGA (g),AFE,SA(0.2) (g),AFE", |a| format!("{a},{},{},{}", rate(a), 2.0 * a, 3.0 * rate(a))),
         openquake("# mean, investigation_time=50.0, imt=PGA"),
         openquake("# kind=\"mean\", investigation_time=50.0, imt=\"PGA\""),
         openquake(&format!("{engine}, imt='PGA'\"")),
@@ -84,7 +90,7 @@ fn one_curve_is_one_curve_however_it_is_written() {
     }
     for (heading, size) in [("T_R [anni];ag [g];F0 [-];TC* [s]", 1.0), ("TR (anni);ag (g/10);F0;TC*", 10.0)] {
         let text = table(heading, |a| format!("{};{};2,4;0,3", comma(1.0 / rate(a)), comma(size * a)));
-        expect_curve(text.as_bytes(), "", "F0");
+        expect_curve(text.as_bytes(), "", "");
     }
     let named = table("Spitze (g),wie oft", |a| format!("{a},{}", rate(a)));
     expect_curve(named.as_bytes(), "pga=Spitze (g),AFE=wie oft", "");
@@ -144,6 +150,9 @@ fn what_is_not_known_to_be_a_mean_is_not_taken_for_it() {
 fn what_is_no_hazard_is_refused_for_its_reason() {
     let sized = |heading: &str, size: f64| table(heading, |a| format!("{},{}", size * a, rate(a)));
     let curve = |heading: &str| sized(heading, 1.0);
+    let said = |heading: &str, cell: &str| {
+        table(&format!("{heading},level (g),AFE"), |a| format!("{cell},{a},{}", rate(a)))
+    };
     let exported = |rest: &str| openquake(&format!("#,,,\"kind='mean', investigation_time=50.0{rest}\""));
     let twice = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.5,0.6,0.002\n";
     for (text, columns, named) in [
@@ -152,13 +161,13 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         ("PGA (g),AFE\n0.1,0.01\n#0.3,0.001\n1,1e-4\n", "", "Cell { line: 3"),
         ("pga_g,AFE\n0.001,NA\n0.01,0.1\n0.1,0.01\n", "", "Cell { line: 2"),
         ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", "", "Cell { line: 2"),
-        ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "0.01 to 0.05"),
-        ("Period (s),Sa (g)\n0,0.4\n0.1,0.4\n0.5,0.4\n1,0.4\n", "", "uniform"),
-        ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", "", "uniform"),
+        ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "Heading { heading: \"0.01\""),
+        ("Period (s),Sa (g)\n0,0.4\n0.1,0.4\n0.5,0.4\n1,0.4\n", "", "Heading { heading: \"Period (s)\""),
+        ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", "", "0.1~PGA"),
         (&exported(""), "", "imt"),
         (&exported(", imt='SA(0.3)'"), "", "SA(0.3)"),
         (&curve("intensity,AFE"), "", "Heading { heading: \"intensity\""),
-        (&curve("SA(0.2) (g),AFE"), "", "1 s"),
+        (&curve("SA(0.2) (g),AFE"), "", "a curve of SA(0.2 s)"),
         (&curve("SA(1.0) (g),AFE"), "", "SA(1.0 s)"),
         (&curve("vertical PGA (g),AFE"), "", "vertical"),
         (&curve("PGA rock (g),AFE"), "", "PGA rock (g)"),
@@ -175,6 +184,23 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         (&curve("Spitze (g),AFE"), "pgv_m_s=Spitze (g)", "Units"),
         // A unit that the user names does not replace that of the file.
         (&curve("Peak (m/s2),AFE"), "pga_g=Peak (m/s2)", "Units"),
+        (&curve("PoE in 30 years,AFE"), "probability_of_exceedance_in_50_years=PoE in 30 years", "Units"),
+        (&curve("SA(0.2) (g),AFE"), "pga_g=SA(0.2) (g)", "Units"),
+        (&curve("pga_g,AFE 84th"), "AFE=AFE 84th", "Units"),
+        (&curve("1.00 Second Spectral Acceleration\nGround Motion (g),AFE"), "", "SA(1.0 s) without PGA"),
+        (&curve("1.00 Second Spectral Acceleration\nPGA (g),AFE"), "", "SA(1.0 s) in a comment"),
+        (&curve("1.00 Second Spectral Acceleration\nIML (g),AFE"), "pga_g=IML (g)", "SA(1.0 s) in a comment"),
+        (&curve("# Vertical motion\nPGA (g),AFE"), "", "horizontal"),
+        (&curve("# 95th percentile\nPGA (g),AFE"), "", "median"),
+        (&curve("pga_g,AFE 95%"), "", "Heading { heading: \"AFE 95%\""),
+        (&said("imt", "SA(0.5)"), "", "a curve of SA(0.5 s)"),
+        (&said("component", "vertical"), "", "--ignore"),
+        (&said("agg", "p95"), "", "Heading { heading: \"agg\""),
+        (&said("rlz", "3"), "", "Heading { heading: \"rlz\""),
+        (&said("quantile", "0.95"), "", "Heading { heading: \"quantile\""),
+        (&said("scenario", "B"), "", "Heading { heading: \"scenario\""),
+        ("{\"imt\": \"PGA\"}", "", "JSON"),
+        ("<?xml version='1.0'?><nrml/>", "", "XML"),
         ("PGA (g),AFE\n(m/s2),\n0.1,0.01\n0.2,0.001\n", "", "Units"),
         ("pga_g,AFE\n0.4,0.01\n0.1,0.02\n0.2,0.03\n", "", "Cell { line: 4, heading: \"AFE\""),
         ("pga_g,PoE in 50 years\n0.1,60%\n0.2,0.3\n0.4,1\n", "", "Cell { line: 4"),
@@ -213,7 +239,7 @@ fn curves_given_together_are_of_one_site_and_in_their_units() {
         (&pga, with("", "PGV (cm/s),AFE", 1.0), "PGV/PGA"),
         (&pga, pga.clone(), "curves of PGA"),
         (&pga, "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n".to_string(), "PGA and PGV"),
-        (&west, with("# lon=139.713, lat=35.6\n", "SA(1.0) (g),AFE", 0.5), "lon 139.70 and 139.713"),
+        (&west, with("# lon=139.72, lat=35.6\n", "SA(1.0) (g),AFE", 0.5), "lon 139.70 and 139.72"),
         (&south, with("# lon=10, lat=45.02\n", "SA(1.0) (g),AFE", 0.5), "lat 45.00 and 45.02"),
         (&pga, with("# vs30=765\n", "SA(1.0) (g),AFE", 0.5), "vs30 760 and 765"),
     ] {
@@ -229,11 +255,12 @@ fn curves_given_together_are_of_one_site_and_in_their_units() {
 }
 
 #[test]
-fn a_curve_that_is_not_used_is_named() {
+fn fractiles_are_read_in_pairs() {
     let text = table("pga_g,AFE,AFE 84th", |a| format!("{a},{},{}", rate(a), 2.0 * rate(a)));
-    assert!(curves(&[text.as_bytes()], "", "PGA (84 %)").fractiles.is_none());
+    assert!(read(&[text.as_bytes()], "").is_err());
     let row = |a: f64, b: f64, low: f64, high: f64| format!("{a},{b},{low},{high}");
     for text in [
+        table("pga_g,AFE,AFE 16%,AFE (84 %)", |a| row(a, rate(a), 0.5 * rate(a), 2.0 * rate(a))),
         table("pga_g,AFE,AFE p16,AFE p84", |a| row(a, rate(a), 0.5 * rate(a), 2.0 * rate(a))),
         table("AFE,pga_g,pga_m_s2_16,PGA 84th (g)", |a| row(rate(a), a, 5.0 * a, 1.2 * a)),
     ] {

@@ -1,37 +1,49 @@
 //! What the headings of a hazard say: measures by their units, rates, probabilities and return periods, means
 //! and fractiles.
 
-use rockfrag_core::fragility::Peak;
-use rockfrag_core::units::Quantity;
+use std::fmt;
 
+use rockfrag_core::fragility::Peak;
+use rockfrag_core::units::{Quantity, Unit};
+
+use super::said::Said;
 use crate::inputs::words::is_one_of;
-use crate::inputs::{Grid, Heading, InputError, Result};
+use crate::inputs::{Grid, Heading, Result};
 
 /// An intensity measure type.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Imt {
-    #[strum(serialize = "PGA")]
     Pga,
-    #[strum(serialize = "PGV")]
     Pgv,
-    /// Spectral acceleration at 1 s.
-    #[strum(serialize = "SA(1.0 s)")]
-    Spectral,
-    /// At another period.
-    #[strum(serialize = "SA")]
-    Other,
+    /// Spectral acceleration, and its period in s where one is named.
+    Spectral(Option<f64>),
 }
 
-/// Which of several curves of a measure, with the words of OpenQuake.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumString)]
+impl Imt {
+    pub const SA_1S: Imt = Imt::Spectral(Some(1.0));
+}
+
+impl fmt::Display for Imt {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Imt::Pga => write!(f, "PGA"),
+            Imt::Pgv => write!(f, "PGV"),
+            Imt::Spectral(Some(period_s)) => write!(f, "SA({period_s:?} s)"),
+            Imt::Spectral(None) => write!(f, "SA"),
+        }
+    }
+}
+
+/// Which of several curves of a measure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
 pub enum Statistic {
-    #[strum(to_string = "mean", serialize = "hcurve-mean")]
+    #[strum(serialize = "mean")]
     Mean,
-    #[strum(to_string = "median", serialize = "quantile-0.5", serialize = "quantile-0.50")]
+    #[strum(serialize = "median")]
     Median,
-    #[strum(to_string = "16 %", serialize = "quantile-0.16")]
+    #[strum(serialize = "16 %")]
     Low,
-    #[strum(to_string = "84 %", serialize = "quantile-0.84")]
+    #[strum(serialize = "84 %")]
     High,
 }
 
@@ -48,6 +60,17 @@ pub enum Frequency {
     Occurrence,
 }
 
+impl fmt::Display for Frequency {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Frequency::Rate => write!(f, "annual rate"),
+            Frequency::ProbabilityIn(years) => write!(f, "probability in {years} years"),
+            Frequency::ReturnPeriod => write!(f, "return period in years"),
+            Frequency::Occurrence => write!(f, "annual rate of occurrence"),
+        }
+    }
+}
+
 /// A column by its heading: of values, of frequencies, or of neither.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HazardColumn {
@@ -57,7 +80,47 @@ pub struct HazardColumn {
     pub frequency: Option<Frequency>,
     /// None where the heading names none: `Ground Motion (g)`, `AFE`.
     pub measure: Option<Imt>,
-    pub statistic: Statistic,
+    pub statistic: Option<Statistic>,
+    /// Years that the heading names.
+    years: Option<f64>,
+}
+
+/// What the words of a heading, or of a cell below it, say.
+pub struct Phrase {
+    pub measure: Option<Imt>,
+    pub statistic: Option<Statistic>,
+    /// Words that say neither.
+    rest: Vec<String>,
+}
+
+impl Phrase {
+    pub fn new(text: &str) -> Phrase {
+        let text = parted(text);
+        let mut words: Vec<&str> = text.split_whitespace().collect();
+        let (measure, statistic) = (take_measure(&mut words), take_statistic(&mut words));
+        Phrase { measure, statistic, rest: words.into_iter().map(str::to_string).collect() }
+    }
+
+    /// Whether all other words have one of these meanings.
+    pub fn says_only(&self, meanings: &[&str]) -> bool {
+        self.rest.iter().all(|word| meanings.iter().any(|meaning| is_one_of(word, meaning)))
+    }
+
+    /// Whether it is of values in a unit.
+    fn are_values(&self, unit: &Unit) -> bool {
+        let name = match (unit.quantity, self.measure) {
+            (Quantity::Acceleration, None | Some(Imt::Pga | Imt::Spectral(_))) => "acceleration",
+            (Quantity::Velocity, None | Some(Imt::Pgv)) => "velocity",
+            _ => return false,
+        };
+        let is_named = self.measure.is_some() || self.rest.iter().any(|word| is_one_of(word, name));
+        is_named && self.says_only(&[name, "of-values"])
+    }
+
+    fn years(&self) -> Option<f64> {
+        let mut pairs = self.rest.windows(2).filter(|pair| is_one_of(&pair[1], "years"));
+        pairs.find_map(|pair| pair[0].parse().ok())
+    }
 }
 
 fn is_numeric(word: &str) -> bool {
@@ -65,91 +128,128 @@ fn is_numeric(word: &str) -> bool {
 }
 
 impl HazardColumn {
-    /// Reads the heading of a column of a file whose probabilities are for so many years, if it says so.
-    pub fn new(at: usize, heading: &Heading, investigation_years: Option<f64>) -> HazardColumn {
+    /// Reads the heading of a column, with what its file says of units and years.
+    pub fn new(at: usize, heading: &Heading, said: &Said) -> HazardColumn {
         // A fractile may stand behind the unit: pga_g_16.
-        let ranked = heading.text.rsplit_once('_');
-        let ranked = ranked.filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
-        let (text, rank) = ranked.unwrap_or((&heading.text, ""));
-        let Heading { bare, unit, .. } = Heading::new(text);
-        let unit = unit.or(heading.unit);
-        let quantity = unit.map(|unit| unit.quantity);
-        let text = parted(&format!("{bare} {rank}"));
-        let mut words: Vec<&str> = text.split_whitespace().collect();
-        // A unit at the end of `PoE in 50 years`.
-        words.extend((quantity == Some(Quantity::Time)).then_some("years"));
-        let measure = take_measure(&mut words);
-        let statistic = take_statistic(&mut words);
-        let unit = unit.filter(|_| are_of_values(&words, measure, quantity)).map(|unit| unit.si);
-        let frequency = Frequency::new(&words, investigation_years).filter(|_| unit.is_none());
-        let is_velocity = quantity == Some(Quantity::Velocity);
-        let measure = measure.or(is_velocity.then_some(Imt::Pgv));
-        HazardColumn { at, unit, frequency, measure, statistic }
+        let ranked =
+            heading.bare.rsplit_once('_').filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
+        let ranked = ranked.filter(|_| heading.unit.is_none()).map(|(text, rank)| (Heading::new(text), rank));
+        let (own, rank) = ranked.as_ref().map_or((heading, ""), |(own, rank)| (own, *rank));
+        let own_unit = own.unit.or(heading.unit);
+        let mut phrase = Phrase::new(&match own_unit {
+            // The unit of a period or of years is one of the words.
+            Some(Unit { quantity: Quantity::Time, name, .. }) => format!("{} {name} {rank}", own.bare),
+            _ => format!("{} {rank}", own.bare),
+        });
+        let own_unit = own_unit.filter(|unit| unit.quantity != Quantity::Time);
+        let unit = own_unit.or_else(|| said.unit(|unit| phrase.are_values(unit)));
+        let unit = unit.filter(|unit| !heading.is_scaled && phrase.are_values(unit));
+        if unit.is_some_and(|unit| unit.quantity == Quantity::Velocity) {
+            phrase.measure = Some(Imt::Pgv);
+        }
+        let is_frequency = unit.is_none() && own_unit.is_none() && !heading.is_scaled;
+        let frequency = Frequency::new(&phrase.rest, said.years).filter(|_| is_frequency);
+        let (measure, statistic, years) = (phrase.measure, phrase.statistic, phrase.years());
+        HazardColumn { at, unit: unit.map(|unit| unit.si), frequency, measure, statistic, years }
     }
 
     pub fn is_of_curve(&self) -> bool {
         self.unit.is_some() || self.frequency.is_some()
     }
+
+    /// The measure and the statistic that it and another column name; none where they differ.
+    pub fn named_with(&self, other: &HazardColumn) -> Option<(Option<Imt>, Option<Statistic>)> {
+        let is_same = !differ(self.measure, other.measure) && !differ(self.statistic, other.statistic);
+        is_same.then(|| (self.measure.or(other.measure), self.statistic.or(other.statistic)))
+    }
+}
+
+/// Of values by their measure, else of frequencies.
+impl fmt::Display for HazardColumn {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        let measure = self.measure.map(|measure| measure.to_string());
+        let frequency = self.frequency.map(|frequency| frequency.to_string());
+        let statistic = self.statistic.map(|statistic| statistic.to_string());
+        let parts: Vec<String> = [frequency, measure, statistic].into_iter().flatten().collect();
+        f.write_str(&parts.join(", "))
+    }
+}
+
+fn differ<T: PartialEq>(one: Option<T>, other: Option<T>) -> bool {
+    one.zip(other).is_some_and(|(one, other)| one != other)
+}
+
+/// Whether a heading says another measure, frequency or fractile than the name that a user gives its column.
+pub fn contradict(heading: &Heading, name: &Heading) -> bool {
+    let [own, given] = [heading, name].map(|heading| HazardColumn::new(0, heading, &Said::default()));
+    let is_ranked = given.is_of_curve() && own.statistic.is_some() && own.statistic != given.statistic;
+    let is_other = differ(own.measure, given.measure) || differ(own.frequency, given.frequency);
+    is_ranked || is_other || differ(own.years, given.years)
 }
 
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
 /// word more, which may change the meaning: `vertical PGA`. An acceleration without a name is PGA.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let HazardColumn { unit, measure, .. } = HazardColumn::new(0, heading, None);
+    let HazardColumn { unit, measure, .. } = HazardColumn::new(0, heading, &Said::default());
     match measure {
         None | Some(Imt::Pga) => Some((Peak::Pga, unit?)),
         Some(Imt::Pgv) => Some((Peak::Pgv, unit?)),
-        Some(Imt::Spectral | Imt::Other) => None,
+        Some(Imt::Spectral(_)) => None,
     }
 }
 
-/// Whether a heading in a unit, with these words beside a measure, is of values.
-fn are_of_values(words: &[&str], measure: Option<Imt>, quantity: Option<Quantity>) -> bool {
-    let name = match (quantity, measure) {
-        (Some(Quantity::Acceleration), Some(Imt::Spectral | Imt::Other)) => return words.is_empty(),
-        (Some(Quantity::Acceleration), None | Some(Imt::Pga)) => "acceleration",
-        (Some(Quantity::Velocity), None | Some(Imt::Pgv)) => "velocity",
-        _ => return false,
-    };
-    let is_named = measure.is_some() || words.iter().any(|word| is_one_of(word, name));
-    is_named && words.iter().all(|word| is_one_of(word, name) || is_one_of(word, "of-values"))
-}
-
-/// A text in lower case with blanks between words and numbers: `pe50` is `pe 50`.
-fn parted(text: &str) -> String {
+/// A text in lower case with blanks between words and numbers: `pe50` is `pe 50`. A percent sign behind a
+/// number is that of a fractile.
+pub fn parted(text: &str) -> String {
     let is_digit = |sign: char| sign.is_ascii_digit() || sign == '.';
-    let mut parted = String::new();
+    let (mut parted, mut before) = (String::new(), ' ');
     for sign in text.to_lowercase().chars() {
         let last = parted.chars().last().unwrap_or(' ');
         if is_digit(sign) != is_digit(last) {
             parted.push(' ');
         }
+        let is_rank = sign == '%' && is_digit(before);
         parted.push(if sign.is_alphanumeric() || sign == '.' { sign } else { ' ' });
+        parted.push_str(if is_rank { "percentile " } else { "" });
+        before = if sign == ' ' { before } else { sign };
     }
     parted.replace(". ", " ").replace(" .", " ").trim_matches('.').to_string()
 }
 
-/// Takes the words that name a measure out of a heading.
-fn take_measure(words: &mut Vec<&str>) -> Option<Imt> {
+/// Takes the first measure out of words, with its period before or behind: `1.0 s SA`, `SA0P2`.
+pub fn take_measure(words: &mut Vec<&str>) -> Option<Imt> {
+    const SECONDS: [&str; 4] = ["s", "sec", "second", "seconds"];
     for at in 0..words.len() {
-        let period: Vec<&str> = words[at + 1..].iter().copied().take_while(|word| is_numeric(word)).collect();
-        let is_after_spectral = at > 0 && words[at - 1] == "spectral";
-        let (measure, length) = match words[at] {
-            "pgv" => (Imt::Pgv, 1),
-            "pga" | "ag" => (Imt::Pga, 1),
-            "s" if at > 0 || period.is_empty() => continue,
-            "acceleration" if !is_after_spectral => continue,
-            "sa" | "psa" | "s" | "acceleration" => {
-                let is_at_1_s = period.join(".").parse() == Ok(1.0);
-                let in_s = words.get(at + 1 + period.len()).is_some_and(|next| matches!(*next, "s" | "sec"));
-                let measure = if is_at_1_s { Imt::Spectral } else { Imt::Other };
-                (measure, 1 + period.len() + usize::from(in_s))
+        let before = at.checked_sub(1).map_or("", |before| words[before]);
+        let start = if before == "spectral" { at - 1 } else { at };
+        let name = at
+            + 1
+            + words[at + 1..].iter().take_while(|word| matches!(**word, "at" | "t" | "period")).count();
+        let behind = &words[name..];
+        let count = behind.iter().take_while(|word| is_numeric(word) || **word == "p").count();
+        let peak = match words[at] {
+            "pgv" => Some(Imt::Pgv),
+            "velocity" if before == "ground" => Some(Imt::Pgv),
+            "pga" | "ag" => Some(Imt::Pga),
+            "acceleration" if before == "ground" || start == at && words[..at].contains(&"peak") => {
+                Some(Imt::Pga)
             }
+            "sa" | "psa" => None,
+            "s" if at == 0 && count > 0 => None,
+            "acceleration" if before == "spectral" => None,
             _ => continue,
         };
-        words.drain(at..at + length);
-        words.retain(|word| *word != "spectral");
-        return Some(measure);
+        if peak.is_some() {
+            words.remove(at);
+            return peak;
+        }
+        let told: Vec<&str> = behind[..count].iter().copied().filter(|word| *word != "p").collect();
+        let is_before = count == 0 && start > 1 && SECONDS.contains(&words[start - 1]);
+        let period_s = if is_before { words[start - 2].parse() } else { told.join(".").parse() };
+        let has_unit = behind.get(count).is_some_and(|next| count > 0 && SECONDS.contains(next));
+        let end = if count == 0 { at + 1 } else { name + count + usize::from(has_unit) };
+        words.drain(if is_before { start - 2 } else { start }..end);
+        return Some(Imt::Spectral(period_s.ok()));
     }
     None
 }
@@ -157,63 +257,42 @@ fn take_measure(words: &mut Vec<&str>) -> Option<Imt> {
 /// Words beside the number of a fractile.
 const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
 
-/// Finds a fractile among the words of a heading, and its place. A number of years is none; in a sentence a
-/// number is one with a word of rank beside it.
-fn find_statistic(words: &[&str], in_sentence: bool) -> Option<(usize, Statistic)> {
-    (0..words.len()).find_map(|at| {
-        let before = at.checked_sub(1).map_or("", |before| words[before]);
-        let after = words.get(at + 1).copied().unwrap_or_default();
-        let is_ranked = [before, after].iter().any(|word| RANKS.contains(word));
-        let are_years = is_one_of(after, "years") || is_one_of(before, "probability");
+pub fn is_ranked(words: &[&str], at: usize) -> bool {
+    let beside =
+        [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|beside| words.get(beside));
+    is_numeric(words[at]) && beside.into_iter().any(|word| RANKS.contains(word))
+}
+
+/// Takes the words that name a fractile out of others. A number of years is none.
+pub fn take_statistic(words: &mut Vec<&str>) -> Option<Statistic> {
+    let (at, statistic) = (0..words.len()).find_map(|at| {
+        let next = words.get(at + 1).copied().unwrap_or_default();
+        let are_years = is_one_of(next, "years") || at > 0 && is_one_of(words[at - 1], "probability");
         let statistic = match words[at] {
             "median" => return Some((at, Statistic::Median)),
-            "50" if !is_ranked => return None,
-            "50" | "0.5" => Statistic::Median,
+            "50" | "0.5" | "0.50" if is_ranked(words, at) => Statistic::Median,
             "16" | "0.16" => Statistic::Low,
             "84" | "0.84" => Statistic::High,
             _ => return None,
         };
-        (is_ranked || !in_sentence && !are_years).then_some((at, statistic))
-    })
-}
-
-/// Takes the words that name a fractile out of a heading.
-fn take_statistic(words: &mut Vec<&str>) -> Statistic {
-    let Some((at, statistic)) = find_statistic(words, false) else { return Statistic::Mean };
+        (is_ranked(words, at) || !are_years).then_some((at, statistic))
+    })?;
     words.remove(at);
     words.retain(|word| !RANKS.contains(word));
-    statistic
-}
-
-/// Finds the statistic that a comment, or a column of statistics, names for the curves of a file.
-pub fn noted_statistic(grid: &Grid) -> Result<Statistic> {
-    let mut texts = grid.notes.clone();
-    if let Some(column) = grid.about("statistic") {
-        let mut cells: Vec<&str> = grid.rows().map(|row| grid.cell(row, column)).collect();
-        cells.dedup();
-        if let [first, second, ..] = cells[..] {
-            let found = format!("{} {first} and {second}", grid.headings[column].text);
-            return Err(InputError::unexpected(found, "one: a file for each"));
-        }
-        texts.extend(cells.first().map(|cell| cell.to_string()));
-    }
-    let named = texts.iter().find_map(|text| {
-        let text = parted(text);
-        let words: Vec<&str> = text.split_whitespace().collect();
-        find_statistic(&words, true).filter(|_| !words.contains(&"mean"))
-    });
-    Ok(named.map_or(Statistic::Mean, |(_, statistic)| statistic))
+    Some(statistic)
 }
 
 impl Frequency {
     /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
-    fn new(words: &[&str], investigation_years: Option<f64>) -> Option<Frequency> {
+    fn new(words: &[String], investigation_years: Option<f64>) -> Option<Frequency> {
         const MEANINGS: [&str; 5] = ["rate", "return-period", "probability", "years", "of-rates"];
-        let (numbers, words): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_numeric(word));
+        let (numbers, words): (Vec<&str>, Vec<&str>) =
+            words.iter().map(String::as_str).partition(|word| is_numeric(word));
         let has = |meaning: &str| words.iter().any(|word| is_one_of(word, meaning));
         let years: Option<f64> = numbers.first().and_then(|number| number.parse().ok());
         match words.iter().all(|word| MEANINGS.iter().any(|meaning| is_one_of(word, meaning))) {
             false => None,
+            _ if numbers.len() > 1 => None,
             _ if has("probability") => {
                 let annual = words.iter().any(|word| matches!(*word, "annual" | "aep" | "ape"));
                 years.or(annual.then_some(1.0)).or(investigation_years).map(Frequency::ProbabilityIn)

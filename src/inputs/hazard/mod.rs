@@ -3,6 +3,7 @@
 
 mod columns;
 mod openquake;
+mod said;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -13,15 +14,17 @@ use rockfrag_core::plausibility::{validate_hazard, validate_spectrum};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 
-pub use self::columns::peak;
-use self::columns::{Frequency, HazardColumn, Imt, Statistic, noted_statistic};
+use self::columns::{Frequency, HazardColumn, Imt, Statistic};
+pub use self::columns::{contradict, peak};
+use self::said::Said;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
-use super::{Grid, Heading, InputError, Reader, Result};
+use super::{Grid, InputError, Meaning, Reader, Result};
 use crate::number::period;
+use crate::source;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
-/// ground-motion fields stand for. Also returns warnings about columns that are not used.
+/// ground-motion fields stand for. Also returns warnings about medians and motions beyond any record.
 pub fn read(
     paths: &[PathBuf],
     reader: &mut Reader,
@@ -90,7 +93,7 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
     };
     let central = |measure| find(measure, Statistic::Mean).or(find(measure, Statistic::Median));
     let (pga, pgv) = (central(Imt::Pga), central(Imt::Pgv));
-    let spectral = central(Imt::Spectral).filter(|_| pgv.is_none());
+    let spectral = central(Imt::SA_1S).filter(|_| pgv.is_none());
     let (main, mut hazard) = match (pga, pgv, spectral) {
         (Some(pga), None, Some(spectral)) if pga.curve == spectral.curve => {
             return Err(InputError::unexpected("SA(1.0 s) as PGA, at all rates", "the curves of both"));
@@ -106,13 +109,13 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
         (.., Some(_)) => return Err(InputError::unexpected("SA(1.0 s) without PGA", "the curve of PGA too")),
         _ => return Err(InputError::unexpected("fractiles alone", "the mean curve too")),
     };
-    let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
-    let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
-    let used: Vec<&Curve> = used.into_iter().flatten().collect();
-    for curve in curves.iter().filter(|curve| !used.iter().any(|used| std::ptr::eq(*used, *curve))) {
-        let about = format!("{} ({}) of {}", curve.measure, curve.statistic, curve.file);
-        warnings.add(Warning::UnusedColumns, about);
+    let of_main = [Statistic::Low, Statistic::High].map(|statistic| find(main.measure, statistic));
+    if let [Some(one), None] | [None, Some(one)] = of_main {
+        let found = format!("{} ({}) of {} alone", one.measure, one.statistic, one.file);
+        return Err(InputError::unexpected(found, "both the 16 % and the 84 % curve, or neither"));
     }
+    let fractiles = of_main[0].zip(of_main[1]);
+    let used: Vec<&Curve> = [pga, pgv, spectral].into_iter().flatten().collect();
     for curve in used.iter().filter(|curve| curve.statistic == Statistic::Median) {
         warnings.add(Warning::MedianHazard, curve.file.clone());
     }
@@ -133,13 +136,14 @@ struct Found {
     joint: Option<Vec<PairOfPeaks>>,
     /// What rows and comments say of the site.
     site: BTreeMap<String, String>,
-    /// About columns that say nothing of the curves, and about medians.
+    /// About medians, and motions beyond any record.
     warnings: Warnings,
 }
 
 impl Found {
-    /// Adds what is in a file, by what its headings say.
+    /// Adds what is in a file: each of its columns has one role, or it is refused.
     fn add(&mut self, path: &Path, reader: &mut Reader, effective_years: Option<f64>) -> Result<()> {
+        expect_table(path)?;
         let mut grid = reader.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
@@ -154,42 +158,70 @@ impl Found {
                 let expected = "ground-motion fields of OpenQuake (gmv_PGA, gmv_PGV) with it";
                 return Err(InputError::unexpected("--effective-years", expected));
             }
-            (false, None) if is_exported => return self.add_curve(openquake::probabilities(&grid, path)?),
             (false, None) => {}
         }
-        let years = openquake::investigation_years(&grid);
-        let columns = (0..).zip(&grid.headings).map(|(at, heading)| HazardColumn::new(at, heading, years));
+        let mut said = if is_exported { Said::default() } else { Said::new(&grid)? };
+        let columns = (0..).zip(&grid.headings).map(|(at, heading)| HazardColumn::new(at, heading, &said));
         let mut columns: Vec<HazardColumn> = columns.collect();
-        if columns.iter().all(|column| column.statistic == Statistic::Mean) {
-            let statistic = noted_statistic(&grid)?;
-            columns.iter_mut().for_each(|column| column.statistic = statistic);
-        }
         let occurrence = columns.iter().position(|column| column.frequency == Some(Frequency::Occurrence));
         let is_joint = are_fields || occurrence.is_some();
-        if is_joint {
+        let others = columns.iter().map(|column| said.meaning(&grid, column, is_joint));
+        let mut meanings = others.collect::<Result<Vec<Meaning>>>()?;
+        let exported = if is_exported { Some(openquake::probabilities(&grid, path)?) } else { None };
+        let are_named = columns.iter().any(|column| column.frequency.and(column.measure).is_some());
+        for column in columns.iter_mut().filter(|column| column.is_of_curve()) {
+            if column.unit.is_some() && !are_named {
+                column.measure = Some(said.measure(column.measure, path)?);
+            }
+            let poe =
+                exported.as_ref().map(|curve| format!("probability, {}, {}", curve.measure, curve.statistic));
+            meanings[column.at] = Meaning::Known(poe.unwrap_or(column.to_string()));
+        }
+        if let Some(curve) = exported {
+            self.add_curve(curve)?;
+        } else if is_joint {
             self.add_motions(&grid, occurrence, effective_years)?;
         } else {
-            let before = self.curves.len();
-            for values in columns.iter().filter(|column| column.unit.is_some()) {
-                for rates in columns.iter().filter(|column| column.frequency.is_some()) {
-                    let curve = curve_of(&grid, values, rates, path)?;
-                    curve.map_or(Ok(()), |curve| self.add_curve(curve))?;
-                }
-            }
-            if before == self.curves.len() {
-                return Err(not_understood(&grid, &columns));
-            }
+            self.add_curves(&grid, &columns, &said, path)?;
         }
-        for column in columns.iter().filter(|_| !are_fields && !grid.lines.is_empty()) {
-            let heading = &grid.headings[column.at];
-            let is_about = |meaning: &str| means(&heading.name, meaning);
-            let is_told =
-                is_about("place") || is_about("spectral-period") || is_joint && is_about("magnitude");
-            if !column.is_of_curve() && !is_told && grid.number(0, column.at).is_ok() {
-                self.warnings.add(Warning::UnusedColumns, heading.text.clone());
-            }
+        expect_understood(&grid, &meanings)?;
+        for column in columns.iter().filter(|column| column.frequency.is_some()) {
+            grid.headings[column.at].unit = None;
         }
+        reader.tell(path, &grid, meanings);
         Ok(())
+    }
+
+    /// Adds the curves of columns of values and of frequencies.
+    fn add_curves(&mut self, grid: &Grid, columns: &[HazardColumn], said: &Said, file: &Path) -> Result<()> {
+        let pairs = pairs(columns);
+        let named: Vec<_> = pairs.iter().map(|[values, rates]| values.named_with(rates)).collect();
+        let measures: Vec<Imt> = named.iter().filter_map(|named| (*named)?.0).collect();
+        said.expect_one_of(&measures)?;
+        let are_unnamed = columns.iter().all(|column| column.statistic.is_none());
+        let told = said.statistic.filter(|told| are_unnamed || *told == Statistic::Median);
+        let (before, mut other) = (self.curves.len(), None);
+        let mut single = Vec::from_iter(columns.iter().filter(|column| column.is_of_curve()));
+        for ([values, rates], named) in pairs.iter().zip(named) {
+            let Some((measure, statistic)) = named else { continue };
+            single.retain(|column| ![values.at, rates.at].contains(&column.at));
+            let measure = said.measure(measure, file)?;
+            match measure {
+                Imt::Pga | Imt::Pgv | Imt::SA_1S => {
+                    let of = (measure, statistic.or(told).unwrap_or(Statistic::Mean));
+                    self.add_curve(Curve::new(of, points(grid, values, rates)?, grid, file)?)?;
+                }
+                Imt::Spectral(_) => other = Some(measure),
+            }
+        }
+        if before == self.curves.len() {
+            let expected = "that of PGA: of spectral accelerations only SA(1.0 s) is of use, beside PGA";
+            let refusal = |of: Imt| InputError::unexpected(format!("a curve of {of}"), expected);
+            return Err(other.map_or_else(|| not_understood(grid, columns), refusal));
+        }
+        let expected = "a column of rates, probabilities or return periods beside each of values";
+        let found = single.first().map(|column| grid.headings[column.at].text.clone());
+        found.map_or(Ok(()), |found| Err(InputError::unexpected(found, expected)))
     }
 
     /// Adds motions with PGA and PGV, their magnitudes, and their annual rates of occurrence: in a column, or
@@ -248,7 +280,7 @@ impl Found {
     fn expect_one_site(&mut self, grid: &Grid) -> Result<()> {
         const SAME: f64 = 1e-4;
         /// North and east.
-        const NEAR_KM: f64 = 1.0;
+        const NEAR_KM: f64 = 1.5;
         const KM_PER_DEGREE: f64 = 111.2;
         let keys = ["lat", "lon", "latitude", "longitude", "vs30"].into_iter();
         let noted = keys.filter_map(|key| Some((key, openquake::noted(grid, key)?)));
@@ -281,60 +313,66 @@ impl Found {
     }
 }
 
-/// The error of a table without a curve: a spectrum, a row of levels without a measure, or the heading that is
-/// not understood first.
-fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
-    let others = columns.iter().filter(|column| !column.is_of_curve());
-    let mut others = others.map(|column| &grid.headings[column.at]);
-    // OpenQuake's spectra have headings such as `0.002105~PGA`: the probability, and the intensity.
-    let is_uniform = grid.headings.iter().any(|heading| heading.text.contains('~'));
-    if is_uniform || others.clone().any(|heading| means(&heading.name, "spectral-period")) {
-        let found = "a uniform hazard spectrum: one rate, many periods";
-        return InputError::unexpected(found, "a hazard curve: PGA, best with SA(1.0 s), at several rates");
-    }
-    let levels: Vec<f64> = grid.headings.iter().filter_map(|heading| heading.text.parse().ok()).collect();
-    if let [first, _, .., last] = levels[..] {
-        let found = format!("a column for each level from {first} to {last}");
-        let expected = "to know of which measure, and whether rates or probabilities: a row for each level, \
-                        under pga_g and annual_rate_of_exceedance";
-        return InputError::unexpected(found, expected);
-    }
-    let mut values = columns.iter().filter(|column| column.unit.is_some());
-    let expected = if values.clone().any(|column| column.measure == Some(Imt::Other)) {
-        "PGA (with g or m/s2): of spectral accelerations only that at 1 s is of use, beside PGA"
-    } else if values.next().is_none() {
-        "PGA (with g or m/s2), PGV (with m/s) or SA(1.0 s) (with g), by name or by --columns pga_g=HEADING"
-    } else {
-        "annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period, by name or by \
-         --columns annual_rate_of_exceedance=HEADING"
+/// Refuses what holds no table, by what it is.
+fn expect_table(path: &Path) -> Result<()> {
+    let (file, _) = source::split_sheet(path);
+    let bytes = source::read(&file).unwrap_or_default();
+    let found = match bytes.trim_ascii_start() {
+        [b'{' | b'[', ..] => "JSON, as of a web service",
+        start if start.starts_with(b"<?xml") || start.starts_with(b"<nrml") => "XML, as OpenQuake's NRML",
+        _ => return Ok(()),
     };
-    let is_unknown = |heading: &&Heading| {
-        !(heading.text.is_empty() || means(&heading.name, "place") || means(&heading.name, "magnitude"))
-    };
-    InputError::not_understood(others.find(is_unknown).map(|heading| &*heading.text), expected, grid.found())
+    Err(InputError::unexpected(found, "the same curve as CSV: intensities in g under pga_g, rates under AFE"))
 }
 
-/// The curve of a column of values and one of frequencies, if they belong together.
-fn curve_of(grid: &Grid, values: &HazardColumn, rates: &HazardColumn, file: &Path) -> Result<Option<Curve>> {
-    let (Some(unit), Some(frequency)) = (values.unit, rates.frequency) else { return Ok(None) };
-    let measure = match (values.measure, rates.measure) {
-        (Some(own), Some(other)) if own != other => return Ok(None),
-        // An acceleration without a name has that of its rates.
-        (None, Some(Imt::Pgv)) => return Ok(None),
-        (own, other) => own.or(other).unwrap_or(Imt::Pga),
-    };
-    let statistic = match (values.statistic, rates.statistic) {
-        (statistic, Statistic::Mean) | (Statistic::Mean, statistic) => statistic,
-        (own, other) if own == other => own,
-        _ => return Ok(None),
-    };
-    if measure == Imt::Other {
-        return Ok(None);
+/// Refuses columns without a role.
+pub fn expect_understood(grid: &Grid, meanings: &[Meaning]) -> Result<()> {
+    let unknown =
+        grid.headings.iter().zip(meanings).filter(|(_, meaning)| **meaning == Meaning::NotUnderstood);
+    let unknown: Vec<&str> = unknown.map(|(heading, _)| heading.text.as_str()).collect();
+    if unknown.is_empty() {
+        return Ok(());
     }
-    let mut points = Vec::new();
-    for (row, value) in grid.intensities(values.at, unit)?.into_iter().enumerate() {
+    let expected = "columns that say a peak, a rate or a place; --ignore HEADING,... leaves others out";
+    Err(InputError::not_understood(Some(&unknown.join(",")), expected, grid.found()))
+}
+
+/// Columns of values, each with those of frequencies that may belong to it: those before or behind it up to
+/// the next, where each has its own, else all.
+fn pairs(columns: &[HazardColumn]) -> Vec<[&HazardColumn; 2]> {
+    let of_curves: Vec<&HazardColumn> = columns.iter().filter(|column| column.is_of_curve()).collect();
+    for ordered in [of_curves.clone(), of_curves.iter().rev().copied().collect()] {
+        let blocks: Vec<_> = ordered.chunk_by(|_, next| next.unit.is_none()).collect();
+        if blocks.iter().all(|block| block[0].unit.is_some() && block.len() > 1) {
+            return blocks
+                .iter()
+                .flat_map(|block| block[1..].iter().map(|rates| [block[0], *rates]))
+                .collect();
+        }
+    }
+    let (values, rates): (Vec<_>, Vec<_>) = of_curves.into_iter().partition(|column| column.unit.is_some());
+    values.iter().flat_map(|values| rates.iter().map(|rates| [*values, *rates])).collect()
+}
+
+/// The error of a table without a curve, with the heading that is not understood first.
+fn not_understood(grid: &Grid, columns: &[HazardColumn]) -> InputError {
+    let expected = "a row for each intensity: PGA (g), PGV (m/s) or SA(1.0 s) (g), and \
+                    annual_rate_of_exceedance, probability_of_exceedance_in_50_years or return_period; \
+                    --columns pga_g=HEADING names one";
+    let is_unknown = |column: &&HazardColumn| {
+        let heading = &grid.headings[column.at];
+        !(column.is_of_curve() || heading.text.is_empty() || means(&heading.name, "place"))
+    };
+    let unknown = columns.iter().find(is_unknown).map(|column| &*grid.headings[column.at].text);
+    InputError::not_understood(unknown, expected, grid.found())
+}
+
+/// The points of a column of values and one of frequencies.
+fn points(grid: &Grid, values: &HazardColumn, rates: &HazardColumn) -> Result<Vec<CurvePoint>> {
+    let (unit, frequency) = (values.unit.unwrap_or(f64::NAN), rates.frequency.unwrap_or(Frequency::Rate));
+    let points = grid.intensities(values.at, unit)?.into_iter().enumerate().map(|(row, value)| {
         let annual_rate = frequency.annual_rate(grid, row, rates.at)?;
-        points.push(CurvePoint { value, annual_rate, row, column: rates.at });
-    }
-    Curve::new((measure, statistic), points, grid, file).map(Some)
+        Ok(CurvePoint { value, annual_rate, row, column: rates.at })
+    });
+    points.collect()
 }

@@ -4,18 +4,15 @@ use std::path::Path;
 
 use rockfrag_core::units::{CM_PER_M, G_M_S2};
 
-use super::columns::{Frequency, Imt, Statistic};
+use super::columns::{Frequency, Imt, Phrase, Statistic};
 use super::{Curve, CurvePoint};
 use crate::inputs::{Grid, Heading, InputError, Result};
 
 /// Gives the columns of ground-motion fields headings with their units: PGA in g, PGV in cm/s.
 pub fn name_fields(grid: &mut Grid) {
     for heading in &mut grid.headings {
-        *heading = match heading.text.as_str() {
-            "gmv_PGA" => Heading::new("PGA (g)"),
-            "gmv_PGV" => Heading::new("PGV (cm/s)"),
-            _ => continue,
-        };
+        let Some(imt) = heading.text.strip_prefix("gmv_") else { continue };
+        *heading = Heading::new(&format!("{imt} ({})", if imt == "PGV" { "cm/s" } else { "g" }));
     }
 }
 
@@ -24,7 +21,7 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve> {
     let (measure, unit) = match noted(grid, "imt") {
         Some("PGA") => (Imt::Pga, G_M_S2),
         Some("PGV") => (Imt::Pgv, 1.0 / CM_PER_M),
-        Some("SA(1.0)") => (Imt::Spectral, G_M_S2),
+        Some("SA(1.0)") => (Imt::SA_1S, G_M_S2),
         other => {
             let found = other.map_or("no imt in the header".to_string(), |imt| format!("a curve of {imt}"));
             return Err(InputError::unexpected(found, "PGA, PGV or SA(1.0)"));
@@ -52,20 +49,23 @@ pub fn probabilities(grid: &Grid, file: &Path) -> Result<Curve> {
 fn statistic(grid: &Grid) -> Result<Statistic> {
     // Before version 3, the kind was the first word of the header.
     let header = grid.notes.first().map_or("", |note| note.trim_start_matches(['#', ' ']));
-    let kind = noted(grid, "kind").or(header.split([',', ' ']).next()).unwrap_or_default().to_lowercase();
+    let kind = noted(grid, "kind").or(header.split([',', ' ']).next()).unwrap_or_default();
+    let phrase = Phrase::new(kind);
     let expected = "the mean, and quantiles 0.16 and 0.84 beside it";
-    kind.parse().map_err(|_| InputError::unexpected(format!("a curve of kind '{kind}'"), expected))
+    let is_understood = phrase.measure.is_none() && phrase.says_only(&["qualifier"]);
+    let known = is_understood.then(|| phrase.statistic.unwrap_or(Statistic::Mean));
+    known.ok_or_else(|| InputError::unexpected(format!("a curve of kind '{kind}'"), expected))
 }
 
 /// The years that probabilities are for, by the header.
 pub fn investigation_years(grid: &Grid) -> Option<f64> {
-    noted(grid, "investigation_time")?.parse().ok()
+    noted(grid, "investigation time")?.parse().ok()
 }
 
 /// What a comment says after a key: of 760 in `vs30=760.0`, `Vs30: 760 m/s` or `# vs30 = '760'`.
 pub fn noted<'a>(grid: &'a Grid, key: &str) -> Option<&'a str> {
     grid.notes.iter().find_map(|note| {
-        let lower = note.to_ascii_lowercase();
+        let lower = note.to_ascii_lowercase().replace('_', " ");
         let places = lower.match_indices(key).filter(|(at, _)| !note[..*at].ends_with(char::is_alphanumeric));
         let mut values = places.map(|(at, _)| note[at + key.len()..].trim_start());
         let value = values.find_map(|rest| rest.strip_prefix(['=', ':']))?;

@@ -63,7 +63,8 @@ pub fn evaluate(
     let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     // A typical motion shows a wrong unit.
-    validate_medians(peaks.iter().flatten().copied()).map_err(|problem| TableError::table(path, problem))?;
+    let given_peaks: Vec<Peaks> = peaks.iter().flatten().copied().flatten().collect();
+    validate_medians(given_peaks.iter().copied()).map_err(|problem| TableError::table(path, problem))?;
     let mut known = HashMap::new();
     let mut evaluated = Vec::new();
     let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
@@ -80,11 +81,17 @@ pub fn evaluate(
         evaluated.push(with_probabilities(batch, peaks, rocking_object, call.magnitude, context)?);
         bar.advance(batch.rows.num_rows())?;
     }
-    match batches.iter().map(|batch| batch.rows.num_rows()).sum() {
-        0 => Err(TableError::table(path, "no rows; expected intensities").into()),
-        rows => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
+    let rows: usize = batches.iter().map(|batch| batch.rows.num_rows()).sum();
+    match (given_peaks.len(), rows - given_peaks.len()) {
+        (0, _) => Err(TableError::table(path, "no row with PGA and PGV").into()),
+        (_, 0) => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
+        (known, without) => {
+            Ok((evaluated, format!("{} evaluated, {without} {NO_PEAKS}\n", counted(known, "row"))))
+        }
     }
 }
+
+const NO_PEAKS: &str = "without PGA or PGV";
 
 /// Columns that say what a row is about.
 const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
@@ -96,17 +103,24 @@ fn bits(structure: &Structure) -> [u64; 3] {
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
 fn with_probabilities<'a>(
     batch: &Batch,
-    given: &[Peaks],
+    given: &[Option<Peaks>],
     rocking_object: impl Fn(usize) -> &'a (RockingObject, Vec<Warning>) + Sync,
     magnitude: Option<f64>,
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
+        let Some(given) = given[row] else {
+            let why = Some(NO_PEAKS.to_string());
+            return (
+                TreeColumns::default(),
+                UncertaintyColumns { warnings: why, ..UncertaintyColumns::default() },
+            );
+        };
         let (rocking_object, about_model) = rocking_object(row);
-        let peaks = given[row].clamp_to_recorded();
+        let peaks = given.clamp_to_recorded();
         let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
-        warnings.extend((peaks != given[row]).then_some(Warning::AtRim));
+        warnings.extend((peaks != given).then_some(Warning::AtRim));
         let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
             pgv_m_s: Some(peaks.pgv_m_s),
@@ -120,7 +134,9 @@ fn with_probabilities<'a>(
     };
     let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
     let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    for (row, uncertainty) in uncertainties.iter().enumerate().filter(|(_, of)| of.warnings.is_some()) {
+    let warned =
+        uncertainties.iter().enumerate().filter(|(row, of)| given[*row].is_some() && of.warnings.is_some());
+    for (row, uncertainty) in warned {
         let place = format!("row {}", batch.first_row + row + 1);
         context.warn(uncertainty.warnings().into_iter().map(|warning| (warning, place.clone())).collect());
     }
@@ -134,22 +150,23 @@ fn with_probabilities<'a>(
     rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }
 
-/// The peaks of each row.
-fn peaks(batch: &Batch) -> anyhow::Result<Vec<Peaks>> {
+/// The peaks of each row with both.
+fn peaks(batch: &Batch) -> anyhow::Result<Vec<Option<Peaks>>> {
     let (pga, pgv) = (column_of_peak(batch, Peak::Pga)?, column_of_peak(batch, Peak::Pgv)?);
-    Ok(pga.into_iter().zip(pgv).map(|(pga_m_s2, pgv_m_s)| Peaks { pga_m_s2, pgv_m_s }).collect())
+    let both = pga.into_iter().zip(pgv);
+    Ok(both.map(|(pga, pgv)| Some(Peaks { pga_m_s2: pga?, pgv_m_s: pgv? })).collect())
 }
 
-/// A peak of each row, m/s2 or m/s.
-fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<f64>> {
+/// A peak of each row, m/s2 or m/s; none where it is missing.
+fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<Option<f64>>> {
     let schema = batch.rows.schema();
     let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
     let (name, unit) =
         intensities::column_of_peak(&names, wanted).map_err(|error| error.in_file(&batch.path))?;
     let values = batch.numbers(name)?.into_iter().enumerate().map(|(row, value)| {
-        let value = value.ok_or_else(|| batch.value_error(row, name, "no value"))? * unit;
-        anyhow::ensure!(value >= 0.0, batch.value_error(row, name, "expected 0 or more"));
-        Ok(value)
+        let is_possible = value.is_none_or(|value| value >= 0.0);
+        anyhow::ensure!(is_possible, batch.value_error(row, name, "expected 0 or more"));
+        Ok(value.map(|value| value * unit))
     });
     values.collect()
 }
