@@ -84,7 +84,9 @@ pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
         headings = with_units(&headings, units)?;
         end += 1;
     }
-    roles[of_heading.start..end.max(of_heading.start)].fill(RowRole::Head);
+    if main.is_some() {
+        roles[of_heading.start..end].fill(RowRole::Head);
+    }
     // Between blanks, a comment above the numbers may have some too: dt 0.01.
     let start = first.filter(|_| source == Source::Blanks).unwrap_or(end);
     for (at, row) in rows.iter().enumerate().skip(end) {
