@@ -149,6 +149,12 @@ impl Grid {
         Some(self.cell(row, column)).filter(|cell| cell.starts_with('#') || !is_missing(cell))
     }
 
+    /// Whether the cells of a column are texts.
+    pub fn is_text(&self, column: usize) -> bool {
+        let mut values = self.rows().filter(|row| self.value(*row, column).is_some());
+        values.any(|row| self.number(row, column).is_err())
+    }
+
     pub fn is_percent(&self, row: usize, column: usize) -> bool {
         self.headings[column].is_percent || self.cell(row, column).ends_with('%')
     }

@@ -42,6 +42,9 @@ const HIGHEST_FLOOR: f64 = 50.0;
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListDefaults {
     pub ground_floor: Option<u32>,
+    /// Those of the building of rows that do not say theirs.
+    pub storeys: Option<u32>,
+    pub building: Option<&'static Building>,
     /// Where objects stand that do not say so themselves.
     pub place: Place,
 }
@@ -53,7 +56,7 @@ struct List<'a> {
     place: Place,
 }
 
-/// Reads a list: the objects of its rows, and what of it is not used.
+/// Reads a list: the objects of its rows, and doubts about them.
 pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
     let list = |reader: &mut Reader| {
         let grid = reader.read(path)?;
@@ -64,11 +67,11 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
     list(reader).map_err(|error: InputError| error.in_file(path))
 }
 
-/// The objects of the rows of a grid, and what of it is not used but for these other columns.
-pub fn in_rows(grid: &Grid, others: &[usize], defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
-    let mut list = List::new(grid, defaults)?;
+/// The objects of the rows of a grid that has these other columns, doubts about them, and what its columns say.
+pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings, Vec<Meaning>)> {
+    let mut list = List::new(grid, &ListDefaults::default())?;
     others.iter().for_each(|at| list.columns[*at] = Role::Other);
-    Ok((list.objects(), list.doubts()))
+    Ok((list.objects(), list.doubts(), list.meanings()))
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
@@ -196,13 +199,9 @@ impl List<'_> {
         self.column(column).and_then(|at| self.grid.value(row, at))
     }
 
-    /// The columns that are not used, named once, and the words that are taken as no value.
+    /// The words that are taken as no value.
     fn doubts(&self) -> Warnings {
         let (grid, mut doubts) = (self.grid, Warnings::default());
-        let unused: Vec<&str> = self.headings(Role::Unused).collect();
-        if !unused.is_empty() {
-            doubts.add(Warning::UnusedColumns, unused.join(", "));
-        }
         for (at, column) in self.columns.iter().enumerate() {
             let mut values = grid.rows().filter_map(|row| grid.value(row, at));
             // A blank cell beside filled ones may be unknown.
@@ -248,23 +247,17 @@ impl List<'_> {
     fn meanings(&self) -> Vec<Meaning> {
         let meaning = |(at, role): (usize, &Role)| match role {
             Role::Known(field) => Meaning::Known(field.to_string()),
-            Role::Unused if self.is_text(at) => Meaning::Kept,
+            Role::Unused if self.grid.is_text(at) => Meaning::Kept,
             Role::Unused | Role::Unclear => Meaning::NotUnderstood,
             other => Meaning::Known(format!("{other:?}").to_lowercase()),
         };
         self.columns.iter().enumerate().map(meaning).collect()
     }
 
-    /// Whether the cells of a column are texts.
-    fn is_text(&self, at: usize) -> bool {
-        let mut values = self.grid.rows().filter(|row| self.grid.value(*row, at).is_some());
-        values.any(|row| self.grid.number(row, at).is_err())
-    }
-
     /// What else a row says, in words of its own.
     fn labels(&self, row: usize) -> Vec<(String, String)> {
         let kept =
-            (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Unused && self.is_text(*at));
+            (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Unused && self.grid.is_text(*at));
         kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
     }
 

@@ -21,7 +21,7 @@ use super::{Grid, Heading, InputError, Reader, Result};
 use crate::number::period;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
-/// ground-motion fields stand for. Also returns warnings about columns that are not used.
+/// ground-motion fields stand for. Also returns warnings.
 pub fn read(
     paths: &[PathBuf],
     reader: &mut Reader,
@@ -39,6 +39,12 @@ pub fn read(
         None => joined(&found.curves, &mut found.warnings)?,
     };
     Ok((hazard, found.warnings))
+}
+
+/// Whether a heading is of a hazard: it says how often, or OpenQuake wrote it.
+pub fn is_of_hazard(heading: &Heading) -> bool {
+    let is_exported = ["gmv_", "poe-"].iter().any(|start| heading.text.starts_with(start));
+    is_exported || HazardColumn::new(0, heading, Some(1.0)).frequency.is_some()
 }
 
 /// A point of a curve, and the cell of its rate.
@@ -109,10 +115,6 @@ fn joined(curves: &[Curve], warnings: &mut Warnings) -> Result<Hazard> {
     let fractiles = find(main.measure, Statistic::Low).zip(find(main.measure, Statistic::High));
     let used = [pga, pgv, spectral, fractiles.map(|(low, _)| low), fractiles.map(|(_, high)| high)];
     let used: Vec<&Curve> = used.into_iter().flatten().collect();
-    for curve in curves.iter().filter(|curve| !used.iter().any(|used| std::ptr::eq(*used, *curve))) {
-        let about = format!("{} ({}) of {}", curve.measure, curve.statistic, curve.file);
-        warnings.add(Warning::UnusedColumns, about);
-    }
     for curve in used.iter().filter(|curve| curve.statistic == Statistic::Median) {
         warnings.add(Warning::MedianHazard, curve.file.clone());
     }
@@ -133,7 +135,7 @@ struct Found {
     joint: Option<Vec<PairOfPeaks>>,
     /// What rows and comments say of the site.
     site: BTreeMap<String, String>,
-    /// About columns that say nothing of the curves, and about medians.
+    /// About medians.
     warnings: Warnings,
 }
 
@@ -178,15 +180,6 @@ impl Found {
             }
             if before == self.curves.len() {
                 return Err(not_understood(&grid, &columns));
-            }
-        }
-        for column in columns.iter().filter(|_| !are_fields && !grid.lines.is_empty()) {
-            let heading = &grid.headings[column.at];
-            let is_about = |meaning: &str| means(&heading.name, meaning);
-            let is_told =
-                is_about("place") || is_about("spectral-period") || is_joint && is_about("magnitude");
-            if !column.is_of_curve() && !is_told && grid.number(0, column.at).is_ok() {
-                self.warnings.add(Warning::UnusedColumns, heading.text.clone());
             }
         }
         Ok(())
