@@ -61,8 +61,8 @@ enum Tool {
         #[command(flatten)]
         common: Common,
     },
-    /// Write a folder to start from: paper (the paper's set-up), records (your records), site (a hazard curve)
-    /// or list (objects)
+    /// Write a folder to start from: paper (the paper's set-up), records (your records), site (a hazard
+    /// curve) or list (objects)
     Init {
         #[arg(value_enum, default_value = "paper")]
         start: init::Start,

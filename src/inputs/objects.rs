@@ -67,7 +67,7 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
     list(reader).map_err(|error: InputError| error.in_file(path))
 }
 
-/// The objects of the rows of a grid that has these other columns, doubts about them, and what its columns say.
+/// The objects of the rows of a grid that has these other columns, doubts about them, and what columns say.
 pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings, Vec<Meaning>)> {
     let mut list = List::new(grid, &ListDefaults::default())?;
     others.iter().for_each(|at| list.columns[*at] = Role::Other);
