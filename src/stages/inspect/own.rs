@@ -97,7 +97,7 @@ impl Inspect {
 
     fn record(&self) -> Result<Reading, InputError> {
         let unreadable = |error: std::io::Error| InputError::Unreadable(error.kind(), error.to_string());
-        let bytes = source::read(&self.file).map_err(unreadable)?;
+        let bytes = source::read(&source::split_sheet(&self.file).0).map_err(unreadable)?;
         let column = self.column.clone();
         let options = ReadOptions { dt_s: self.dt, unit: self.unit, column, ..ReadOptions::default() };
         let motions = unpack(bytes)?.iter().map(|member| read_records(&member.bytes, &options)).collect();
