@@ -15,7 +15,7 @@ fuzz_target!(|bytes: &[u8]| {
         for (row, column) in (0..grid.lines.len()).flat_map(|row| (0..columns).map(move |at| (row, at))) {
             assert!(grid.number(row, column).is_ok_and(f64::is_finite) || grid.number(row, column).is_err());
         }
-        let _ = objects::in_rows(&grid, &[], &objects::ListDefaults::default());
+        let _ = objects::in_rows(&grid, &[]);
     }
     let formats = RecordFormat::VARIANTS.iter().copied().map(Some).chain([None]);
     let column = ["", "all", "2", "a"][usize::from(first >> 3 & 3)];

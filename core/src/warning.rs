@@ -44,7 +44,6 @@ pub enum Warning {
     OneDirection,
     NotGiven,
     Repeated,
-    UnusedColumns,
 }
 
 impl Warning {
@@ -81,7 +80,6 @@ impl Warning {
             ScanEndsEarly => "too few motions overturn the structure to give a median; raise --to",
             ScanStartsLate => "most motions overturn the structure at the first intensity; lower --from",
             UnreadableFile => "not imported",
-            UnusedColumns => "columns not used by rockfrag",
             LeftOut => "left out: held, sliding, at a wall, or on a floor, whose motions these are not",
             OneDirection => "in the weaker direction alone: no motion has a pair in the other",
             Repeated => "the same object again, counted as another",

@@ -2,11 +2,13 @@
 //!
 //! ```text
 //! row        the columns of an answer
+//! labels     the own columns of the list of the objects
 //! at_site    what is drawn of an object at a site
 //! variants   what would change an object, a row each
 //! ```
 
 mod at_site;
+mod labels;
 mod row;
 mod variants;
 
@@ -27,12 +29,14 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
+use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::provenance::Provenance;
 use crate::table::rows;
 pub use at_site::AtSite;
+pub use labels::Labels;
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
@@ -64,6 +68,9 @@ pub struct Answer {
     pub uncertainty: UncertaintyColumns,
     /// What happens to the objects of the table, where there are several: the same in all rows.
     pub list: ListProbabilities,
+    /// What else the list of the object says of it.
+    #[serde(skip)]
+    pub labels: Labels,
     /// The points of its fragility, of which each is a row of the file.
     #[serde(skip)]
     pub points: Vec<FragilityPoint>,
@@ -125,7 +132,8 @@ pub fn assess(
         .par_iter()
         .map(|object| {
             progress.advance(1)?;
-            Answer::new(object, question, models)
+            let (answer, known) = Answer::new(object, question, models)?;
+            Ok((Answer { labels: object.labels.clone(), ..answer }, known))
         })
         .collect();
     // The first error in the order of the objects, whichever thread meets one first.
@@ -258,6 +266,7 @@ pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBa
     let mut parts = vec![rows::batch(answers().map(|answer| &answer.object))?];
     parts.extend(of_question);
     parts.push(rows::batch(answers().map(|answer| &answer.uncertainty))?);
+    parts.extend(labels::columns(answers())?);
     rows::side_by_side(&parts)
 }
 
@@ -282,12 +291,14 @@ pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
         points.iter().map(|point| CurveRow::new(fragility.over, point)).chain(empty)
     });
     let points: Vec<CurveRow> = points.collect();
-    rows::side_by_side(&[
+    let mut parts = vec![
         rows::batch(all().map(|answer| &answer.object))?,
         rows::batch(&points)?,
         rows::batch(all().map(|answer| &answer.fragility))?,
         rows::batch(all().map(|answer| &answer.uncertainty))?,
-    ])
+    ];
+    parts.extend(labels::columns(all())?);
+    rows::side_by_side(&parts)
 }
 
 impl AnswerTable {
@@ -295,6 +306,7 @@ impl AnswerTable {
     pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
         let mut rows: Vec<Answer> = rows::read(path)?;
+        rows.iter_mut().zip(labels::read(path)?).for_each(|(answer, labels)| answer.labels = labels);
         if rows.iter().any(|answer| answer.fragility.over.is_some()) {
             rows = with_points(rows, &rows::read(path)?);
         }
@@ -323,6 +335,17 @@ impl AnswerTable {
     /// The name of its file; none of a call's own answers.
     pub fn file(&self) -> String {
         self.rows.first().map_or(String::new(), |answer| literal(&answer.file))
+    }
+
+    /// How the files of people were read, each once.
+    pub fn readings(&self) -> Vec<&Reading> {
+        let mut readings: Vec<&Reading> = Vec::new();
+        for reading in self.made.iter().flat_map(|made| &made.readings) {
+            if !readings.contains(&reading) {
+                readings.push(reading);
+            }
+        }
+        readings
     }
 
     /// What answers are for, after a place: `; hazard: pga.csv`.

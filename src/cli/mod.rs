@@ -15,9 +15,10 @@ use clap_complete::Shell;
 use rockfrag_core::warning::Warnings;
 use serde_json::{Value, json};
 
+use crate::inputs::Reading;
 use crate::number::{LONGEST_TEXT, shown, visible};
 use crate::pipeline::UsageError;
-use crate::pipeline::call::{Call, Planned, is_view};
+use crate::pipeline::call::{Call, Done, Planned, is_view};
 use crate::pipeline::context::{COMMON, Common, threads_of};
 use crate::pipeline::options::{SeveralErrors, is_path, name_of, on_line};
 use crate::source::silence_decoder_panics;
@@ -60,8 +61,8 @@ enum Tool {
         #[command(flatten)]
         common: Common,
     },
-    /// Write a folder to start from: paper (the paper's set-up), records (your records) or site (a hazard
-    /// curve)
+    /// Write a folder to start from: paper (the paper's set-up), records (your records), site (a hazard
+    /// curve) or list (objects)
     Init {
         #[arg(value_enum, default_value = "paper")]
         start: init::Start,
@@ -182,6 +183,7 @@ fn run_one(call: &Call) -> anyhow::Result<()> {
         tell(&format!("{}: up to date", call.name));
     }
     print(&done.summary, call.stage.format())?;
+    tell_gaps(&done);
     warn(&done.warnings);
     Ok(())
 }
@@ -200,12 +202,19 @@ fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
             tell(&format!("{:20} {took}", call.name));
         }
         warnings.join(&done.warnings);
+        tell_gaps(&done);
         if place == answer {
             printed = done.summary;
         }
     }
     warn(&warnings);
     print(&printed, calls[answer].stage.format())
+}
+
+/// Names the columns that are not understood where what is printed does not.
+fn tell_gaps(done: &Done) {
+    let gaps = done.readings.iter().filter_map(Reading::gaps);
+    gaps.filter(|gaps| !done.summary.contains(gaps)).for_each(|gaps| tell(&gaps));
 }
 
 fn warn(warnings: &Warnings) {

@@ -27,13 +27,21 @@ impl Document {
             write_figure(figure, if is_said { "" } else { &figure.title })
         };
         let is_beside = !self.tables.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
-        let mut columns: Vec<Column> = self.tables.iter().take(1).flat_map(Table::columns).collect();
+        let all = self.tables.iter().take(1).flat_map(Table::columns);
+        let (labels, mut columns): (Vec<_>, Vec<_>) = all.partition(|column| column.is_label);
         let mut below = columns.split_off(columns.len().min(if is_beside { BESIDE } else { usize::MAX }));
-        // Each part has the names.
-        below.splice(..0, columns.first().filter(|_| !below.is_empty()).cloned());
+        // Labels stand behind the names, where there is room for both.
+        if is_beside {
+            below.splice(..0, labels);
+            // Each part has the names.
+            below.splice(..0, columns.first().filter(|_| !below.is_empty()).cloned());
+        } else {
+            columns.splice(columns.len().min(1)..columns.len().min(1), labels);
+        }
         let told = html! {
             @if !(self.tables.is_empty() && self.notes.is_empty()) {
                 div {
+                    (paragraphs(&self.gaps))
                     @if let Some(table) = self.tables.first() { (write_columns(&table.caption, &columns)) }
                     div class="notes" { (paragraphs(&self.notes)) }
                 }

@@ -155,6 +155,17 @@ const UNSAID: [&str; 3] = ["place", "file", "responses"];
 fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![answer.object.called()]).collect();
     let (mut heads, mut same) = (vec!["object".to_string()], Vec::new());
+    for (heading, _) in answers.iter().flat_map(|answer| &answer.labels) {
+        let head = literal(heading);
+        if !heads.contains(&head) {
+            heads.push(head);
+            for (row, answer) in rows.iter_mut().zip(answers) {
+                let label = answer.labels.iter().find(|(other, _)| other == heading);
+                row.push(label.map_or(String::new(), |(_, cell)| literal(cell)));
+            }
+        }
+    }
+    let labels = heads.len() - 1;
     for (name, cell) in &COLUMNS {
         let head = name.replace('@', when);
         let known = answers.iter().filter(|answer| answer.is_answered());
@@ -169,7 +180,7 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
         }
     }
     let same = (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", ")));
-    (Table { heads, rows, ..Table::default() }, same)
+    (Table { heads, rows, labels, ..Table::default() }, same)
 }
 
 /// What would change the worst objects.

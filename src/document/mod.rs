@@ -5,6 +5,7 @@
 //! object     the document of one object
 //! list       of several
 //! compare    of two tables of answers
+//! readings   how the files of people were read
 //! response   of a response over time, and the block as it moves
 //! text       a document for a terminal
 //! html       as a page
@@ -16,6 +17,7 @@ mod html;
 mod list;
 mod object;
 pub mod phrases;
+pub mod readings;
 pub mod response;
 mod text;
 mod workbook;
@@ -24,6 +26,7 @@ use anyhow::Context;
 
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
+use crate::chart::text::{literal, words};
 pub use workbook::workbook;
 
 /// What is told of rows, from top to bottom. All texts are marked, see [`crate::chart::text`].
@@ -36,6 +39,8 @@ pub struct Document {
     pub place: String,
     /// The result, in sentences. What the title is about is "It" in the first.
     pub lead: Vec<String>,
+    /// Columns of files that are not understood: a sentence a file.
+    pub gaps: Vec<String>,
     /// The numbers that answer what is asked first.
     pub tiles: Vec<Tile>,
     /// Of a page, the first stands beside the first figure if that is of one panel, as far as it has room
@@ -64,12 +69,15 @@ pub struct Table {
     pub caption: String,
     pub heads: Vec<String>,
     pub rows: Vec<Vec<String>>,
+    /// Columns behind the first that are a list's own, which pages alone show.
+    pub labels: usize,
 }
 
 /// A column of a table that is shown.
 #[derive(Clone)]
 struct Column<'a> {
     head: &'a str,
+    is_label: bool,
     /// Whether all its cells are numbers, which are set to the right.
     is_number: bool,
     cells: Vec<&'a str>,
@@ -91,6 +99,16 @@ impl Table {
         Table { caption: caption.to_string(), ..self }
     }
 
+    /// # Errors
+    /// If the memory is too little.
+    pub fn csv(&self) -> anyhow::Result<String> {
+        let mut csv = csv::Writer::from_writer(Vec::new());
+        for row in [&self.heads].into_iter().chain(&self.rows) {
+            csv.write_record(row.iter().map(|cell| words(cell)))?;
+        }
+        Ok(String::from_utf8(csv.into_inner()?)?)
+    }
+
     fn columns(&self) -> impl Iterator<Item = Column<'_>> {
         self.heads.iter().enumerate().filter_map(|(at, head)| {
             let cells: Vec<&str> =
@@ -98,7 +116,8 @@ impl Table {
             let mut written = cells.iter().filter(|cell| !cell.is_empty()).peekable();
             written.peek()?;
             let is_number = at > 0 && written.all(|cell| is_number(cell));
-            Some(Column { head, is_number, cells })
+            let is_label = (1..=self.labels).contains(&at);
+            Some(Column { head, is_label, is_number, cells })
         })
     }
 }
@@ -112,10 +131,14 @@ impl Document {
     pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-        match &sorted.rows[..] {
+        let document = match &sorted.rows[..] {
             [one] if one.before.is_none() => object::document(&sorted, one),
             _ => list::document(&sorted),
-        }
+        };
+        let readings = table.readings();
+        let gaps = readings.iter().filter_map(|reading| Some(literal(&reading.gaps()?)));
+        let section = Some(readings::section(&readings)).filter(Document::has_content);
+        Document { gaps: gaps.collect(), sections: section.into_iter().collect(), ..document }
     }
 
     pub fn has_content(&self) -> bool {

@@ -17,6 +17,7 @@ impl Document {
         let first = lead.next().unwrap_or_default();
         let of_title = first.strip_prefix("It ").map(|rest| format!("{}: {rest}", words(&self.title)));
         lines.push(of_title.as_ref().unwrap_or(&first).trim_end_matches('.').to_string());
+        lines.extend(self.gaps.iter().map(|gaps| words(gaps)));
         lines.extend(self.tables.first().map(|table| table.text(out)));
         for table in self.tables.iter().skip(1) {
             lines.extend([words(&table.caption), table.text(None)]);
@@ -36,8 +37,8 @@ impl Document {
 }
 
 impl Table {
-    fn text(&self, out: Option<&Path>) -> String {
-        let columns: Vec<_> = self.columns().collect();
+    pub fn text(&self, out: Option<&Path>) -> String {
+        let columns: Vec<_> = self.columns().filter(|column| !column.is_label).collect();
         let all = self.rows.len();
         let most = if out.is_some() || all > PRINTED[1] { all.min(PRINTED[0]) } else { all };
         let plain = |cell: &str| words(cell).replace('\u{a0}', " ");

@@ -6,7 +6,7 @@ use std::path::Path;
 use rockfrag_core::records::Origin;
 
 use super::words::means;
-use super::{Grid, Heading, InputError, Result, decode};
+use super::{Grid, Heading, InputError, Meaning, Reading, Result, decode};
 use crate::source;
 
 /// The line above the table of records in PEER's search results, which have others.
@@ -16,18 +16,18 @@ const PEER: &str = "Summary of Metadata of Selected Records";
 pub struct About {
     /// By the name of the file in small letters, with its ending or without, or `rsn` and its number at PEER.
     known: HashMap<String, Origin>,
-    /// Headings of other columns.
-    pub unused: Vec<String>,
+    /// How the table was read.
+    pub reading: Reading,
 }
 
 impl About {
     /// Reads a table with a column `name` or `file`, and `magnitude`, `distance` (km) or `earthquake`, or
     /// PEER's search results or flatfile.
     pub fn read(path: &Path) -> Result<About> {
-        grid(path).and_then(|grid| About::from_grid(&grid)).map_err(|error| error.in_file(path))
+        grid(path).and_then(|grid| About::from_grid(path, &grid)).map_err(|error| error.in_file(path))
     }
 
-    fn from_grid(grid: &Grid) -> Result<About> {
+    fn from_grid(path: &Path, grid: &Grid) -> Result<About> {
         let [magnitude, distance, earthquake, number] =
             ["magnitude", "distance", "earthquake", "record-number"].map(|meaning| grid.about(meaning));
         let files = grid.headings.iter().enumerate().filter(|(_, Heading { name, .. })| {
@@ -61,9 +61,16 @@ impl About {
                 }
             }
         }
-        let used: Vec<usize> = columns.into_iter().chain([number]).flatten().chain(files).collect();
-        let unused = (0..grid.headings.len()).filter(|at| !used.contains(at));
-        Ok(About { known: all, unused: unused.map(|at| grid.headings[at].text.clone()).collect() })
+        let named = ["magnitude", "distance", "earthquake", "record number"].into_iter();
+        let named: Vec<_> = named.zip(columns.into_iter().chain([number])).collect();
+        let meaning = |at: usize| match named.iter().find(|(_, column)| *column == Some(at)) {
+            Some((name, _)) => Meaning::Known(name.to_string()),
+            None if files.contains(&at) => Meaning::Known("file".to_string()),
+            None if grid.is_text(at) => Meaning::Kept,
+            None => Meaning::NotUnderstood,
+        };
+        let meanings = (0..grid.headings.len()).map(meaning).collect();
+        Ok(About { known: all, reading: grid.reading(path, meanings) })
     }
 
     pub fn get(&self, file: &Path) -> Option<&Origin> {

@@ -43,6 +43,7 @@ mod workbook;
 pub use about::About;
 pub use decode::decode;
 pub use error::{InputError, Result};
+pub use floors::Building;
 pub use grid::Grid;
 pub use heading::Heading;
 pub use numbers::plain_number;

@@ -84,11 +84,17 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
     list(reader).map_err(|error: InputError| error.in_file(path))
 }
 
-/// The objects of the rows of a grid, of which these other columns say nothing, and what is not known of them.
-pub fn in_rows(grid: &Grid, others: &[usize], defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
-    let mut list = List::new(grid, defaults)?;
+/// The objects of the rows of a grid that has these other columns, doubts about them, and what columns say.
+pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings, Vec<Meaning>)> {
+    let mut list = List::new(grid, &ListDefaults::default())?;
     others.iter().for_each(|at| list.columns[*at] = Role::Other);
-    Ok((list.objects(), list.doubts()))
+    Ok((list.objects(), list.doubts(), list.meanings()))
+}
+
+/// Whether a heading is of a list: a size, or p.
+pub fn is_of_list(heading: &Heading) -> bool {
+    let sizes = [Field::Width, Field::Height, Field::P].map(Role::Known);
+    sizes.contains(&meaning(heading)) || meaning(heading) == Role::Diameter
 }
 
 /// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.

@@ -1,6 +1,14 @@
 //! How a file of a person was read: one role for each of its columns, rows and remarks.
 
+use std::borrow::Cow;
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
+
+use crate::number::listed;
+
+/// Columns that a sentence names.
+const NAMED: usize = 12;
 
 /// How a table was read.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
@@ -28,21 +36,42 @@ pub struct ColumnReading {
 
 /// What a column says.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Meaning {
-    /// By the name of its column or option: width.
-    Known(String),
     /// A text of the file's own: tags, rooms, notes.
     Kept,
     #[default]
     NotUnderstood,
     /// Left out by the user.
     Ignored,
+    /// By the name of its column or option: width.
+    #[serde(untagged)]
+    Known(String),
+}
+
+impl Meaning {
+    pub fn words(&self) -> &str {
+        match self {
+            Meaning::Known(name) => name,
+            Meaning::Kept => "kept",
+            Meaning::NotUnderstood => "not understood",
+            Meaning::Ignored => "ignored",
+        }
+    }
 }
 
 impl Reading {
-    /// The headings that are not understood.
-    pub fn not_understood(&self) -> Vec<&str> {
+    /// Its file, without the folder.
+    pub fn name(&self) -> Cow<'_, str> {
+        Path::new(&self.file).file_name().unwrap_or(self.file.as_ref()).to_string_lossy()
+    }
+
+    /// Names the columns that are not understood, if there are any.
+    pub fn gaps(&self) -> Option<String> {
         let columns = self.columns.iter().filter(|column| column.meaning == Meaning::NotUnderstood);
-        columns.map(|column| column.heading.as_str()).collect()
+        let names: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
+        let columns = if names.len() == 1 { "column" } else { "columns" };
+        let gaps = || format!("Not understood in {}: {columns} {}.", self.name(), listed(&names, NAMED));
+        (!names.is_empty()).then(gaps)
     }
 }

@@ -13,6 +13,7 @@ use super::Stage;
 use super::context::{Common, Context};
 use super::options::UsageError;
 use super::paths::Read;
+use crate::inputs::Reading;
 use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::file::tables;
@@ -41,6 +42,8 @@ pub struct Plan {
 pub struct Done {
     pub summary: String,
     pub warnings: Warnings,
+    /// How files of people were read.
+    pub readings: Vec<Reading>,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
 }
@@ -129,7 +132,9 @@ impl Call {
         }
         let made = last?;
         match self.stage.printed(&made.summary) {
-            Ok(Some(summary)) => Ok(Done { summary, warnings: made.warnings, ran: false }),
+            Ok(Some(summary)) => {
+                Ok(Done { summary, warnings: made.warnings, readings: made.readings, ran: false })
+            }
             _ => Err("what it prints is not in its file".to_string()),
         }
     }
@@ -152,7 +157,8 @@ impl Call {
             Ok(()) => error,
         })?;
         context.persist()?;
-        Ok(Done { summary, warnings: context.warnings(), ran: true })
+        let (warnings, readings) = (context.warnings(), context.readings());
+        Ok(Done { summary, warnings, readings, ran: true })
     }
 }
 

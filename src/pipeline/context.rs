@@ -13,6 +13,7 @@ use serde::Deserialize;
 
 use super::call::Plan;
 use super::options::{UsageError, number};
+use crate::inputs::Reading;
 use crate::table::TableError;
 use crate::table::keys::{modified_at, read_file};
 use crate::table::provenance::{InputFile, Provenance};
@@ -95,6 +96,7 @@ pub struct Context {
     pub common: Common,
     pub plan: Plan,
     warnings: Mutex<Warnings>,
+    readings: Mutex<Vec<Reading>>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
     written: Mutex<Vec<PendingFile>>,
     /// Files that go when these get their names.
@@ -114,6 +116,15 @@ impl Context {
         locked(&self.warnings).clone()
     }
 
+    /// Keeps how files of people were read.
+    pub fn tell(&self, readings: Vec<Reading>) {
+        locked(&self.readings).extend(readings);
+    }
+
+    pub fn readings(&self) -> Vec<Reading> {
+        locked(&self.readings).clone()
+    }
+
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
         let writer = TableWriter::create(path, schema)?;
         locked(&self.common.observed.begun).push(writer.partial().to_path_buf());
@@ -123,8 +134,8 @@ impl Context {
 
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
-        let (summary, warnings) = (summary.to_string(), self.warnings());
-        let made = Provenance { summary, warnings, ..self.plan.output(output).with_before() };
+        let (summary, warnings, readings) = (summary.to_string(), self.warnings(), self.readings());
+        let made = Provenance { summary, warnings, readings, ..self.plan.output(output).with_before() };
         locked(&self.written).push(writer.finish(&made)?);
         Ok(())
     }

@@ -86,13 +86,15 @@ impl Stage for Export {
 
     fn check(&self) -> anyhow::Result<()> {
         self.model.check()?;
-        self.objects().map(|_| ())
+        self.objects(&mut Reader::default()).map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
-        let (objects, unused) = self.objects()?;
-        context.warn(unused);
+        let mut reader = Reader::default();
+        let (objects, doubts) = self.objects(&mut reader)?;
+        context.warn(doubts);
+        context.tell(reader.readings);
         let ids = distinct_ids(objects.iter().map(|object| object.name.as_str()));
         let bar = context.bar(objects.len());
         let functions = objects.iter().zip(&ids).map(|(object, id)| {
@@ -129,10 +131,10 @@ impl Stage for Export {
 }
 
 impl Export {
-    fn objects(&self) -> anyhow::Result<(Vec<Object>, Warnings)> {
-        let (objects, unused) = self.structures.objects(&Place::default(), &mut Reader::default())?;
+    fn objects(&self, reader: &mut Reader) -> anyhow::Result<(Vec<Object>, Warnings)> {
+        let (objects, doubts) = self.structures.objects(&Place::default(), reader)?;
         objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;
-        Ok((objects, unused))
+        Ok((objects, doubts))
     }
 
     fn peaks(&self) -> Vec<Peak> {

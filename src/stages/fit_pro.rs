@@ -64,9 +64,8 @@ impl Stage for FitPro {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let (mut fits, mut calibrations) = (Vec::new(), Vec::new());
-        if let Some((outcomes, unused)) = observed::read(&self.input)? {
+        if let Some(outcomes) = observed::read(&self.input, context)? {
             // What stood and what fell gives no curve.
-            context.warn(unused);
             calibrations.extend(Calibration::fit_outcomes(&outcomes));
         } else {
             let columns = MotionColumns::read(&self.pairs, self.motions.as_deref())?;

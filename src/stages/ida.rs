@@ -20,6 +20,7 @@ use serde::{Deserialize, Serialize};
 use super::shared::fits::text;
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
+use crate::inputs::Reader;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::{Read, part};
@@ -121,13 +122,15 @@ impl Stage for Ida {
             _ if to <= from => format!("an intensity above {from}"),
             ScaledMeasure::Pga if *to > MOST_SCALED => "a PGA up to 20 g: is it in m/s2?".to_string(),
             ScaledMeasure::Pgv if *to > MOST_SCALED => "a PGV up to 20 m/s: is it in cm/s?".to_string(),
-            _ => return self.structures.resolve().map(|_| ()),
+            _ => return self.structures.resolve(&mut Reader::default()).map(|_| ()),
         };
         Err(UsageError::because(format!("to is {to}; expected {expected}")))
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (objects, warnings) = self.structures.resolve()?;
+        let mut reader = Reader::default();
+        let (objects, warnings) = self.structures.resolve(&mut reader)?;
+        context.tell(reader.readings);
         context.warn(warnings);
         let structures: Vec<&Structure> = objects.iter().map(|directions| &directions[0]).collect();
         let scan = Scan::new(self.from, self.to, self.steps);

@@ -19,6 +19,8 @@ pub enum Start {
     Records,
     /// The hazard curve of a site
     Site,
+    /// A list of objects
+    List,
 }
 
 const STRUCTURES: (&str, &str) = ("structures.csv", include_str!("../../data/start/structures.csv"));
@@ -35,6 +37,16 @@ impl Start {
                 ("hazard.csv", include_str!("../../data/hazard.csv")),
                 ("hazard_sa.csv", include_str!("../../data/hazard_sa.csv")),
             ],
+            Start::List => &[("objects.csv", include_str!("../../data/start/objects.csv"))],
+        }
+    }
+
+    /// What comes next, in the folder.
+    fn next(self) -> [&'static str; 2] {
+        match self {
+            Start::Records => ["put your records into the folder records, then ", "rockfrag run"],
+            Start::List => ["", "rockfrag evaluate --structures objects.csv"],
+            Start::Paper | Start::Site => ["", "rockfrag run"],
         }
     }
 }
@@ -52,9 +64,8 @@ pub fn init(start: Start, folder: &Path) -> anyhow::Result<String> {
         writeln!(text, "wrote {}", number::path(&path))?;
     }
     persist(files)?;
-    let before =
-        if let Start::Records = start { "put your records into the folder records, then " } else { "" };
+    let [before, next] = start.next();
     let there = if folder == Path::new("") { "" } else { &format!("cd {} && ", number::path(folder)) };
-    writeln!(text, "next: {before}{there}rockfrag run")?;
+    writeln!(text, "next: {before}{there}{next}")?;
     Ok(text)
 }

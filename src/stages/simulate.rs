@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
+use crate::inputs::Reader;
 use crate::number::{self, counted, name};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -74,11 +75,13 @@ impl Stage for Simulate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.structures.or_paper().resolve().map(|_| ())
+        self.structures.or_paper().resolve(&mut Reader::default()).map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (objects, mut warnings) = self.structures.or_paper().resolve()?;
+        let (structures, mut reader) = (self.structures.or_paper(), Reader::default());
+        let (objects, mut warnings) = structures.resolve(&mut reader)?;
+        context.tell(reader.readings);
         let motions = motions::open(&self.input, self.partition)?;
         self.expect_traced(&motions)?;
         let mut second = HashSet::new();

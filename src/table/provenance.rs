@@ -9,6 +9,8 @@ use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
+use crate::inputs::Reading;
+
 const KEY: &str = "rockfrag";
 /// Files of an input that are named.
 const MOST_NAMED: usize = 4;
@@ -34,6 +36,9 @@ pub struct Provenance {
     pub before: BTreeMap<String, BTreeMap<String, String>>,
     pub summary: String,
     pub warnings: Warnings,
+    /// How the files of people were read.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub readings: Vec<Reading>,
 }
 
 /// Returns what rockfrag put into a footer under a key; none if another program has written the table since.

@@ -7,7 +7,7 @@ use rockfrag::pipeline::options::{Given, Rule, merge, name_of};
 use rockfrag::stages;
 use serde_json::Value;
 
-use crate::common::{fail, folder_with, succeed};
+use crate::common::{HAZARD, fail, folder_with, succeed};
 
 #[test]
 fn mistakes_in_a_pipeline_file_are_named() {
@@ -80,6 +80,10 @@ fn every_start_is_a_pipeline_that_can_be_planned() {
         fail(folder.path(), "run --check", 1, &[]);
         fail(folder.path(), &format!("init {start}"), 2, &["pipeline.yaml"]);
     }
+    let folder = tempfile::tempdir().unwrap();
+    succeed(folder.path(), "init list");
+    let (text, warned) = succeed(folder.path(), &format!("evaluate --structures objects.csv {HAZARD}"));
+    assert!(warned.is_empty() && !text.contains("Not understood"), "{warned}{text}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::common::{HAZARD, evaluated, fail, folder, near, number, succeed};
+use super::common::{HAZARD, evaluated, fail, folder, near, number, objects, succeed};
 
 /// The answer over the hazard, in a folder without files.
 #[track_caller]
@@ -127,11 +127,41 @@ fn a_list_is_answered_and_counted_as_its_objects_are() {
         assert!(number(of(answered), "overturning_per_year") > 0.0, "{answered}");
     }
     let (text, warnings) = succeed(here, &format!("evaluate --structures list.csv {HAZARD}"));
-    assert!(warnings.contains("Brand"), "{warnings}");
+    assert!(cabinet["Brand"] == "Acme" && !warnings.contains("Brand"), "{warnings}");
     // Of ten objects that rock.
     assert!(number(cabinet, "count") == 3.0 && text.contains("of 10"), "{text}");
     let same = rate("--width 0.6 --depth 0.45 --height 1.9 --period 0.6 --level 0.5");
     assert!(near(number(cabinet, "overturning_per_year"), same, 1e-9));
+}
+
+#[test]
+fn what_a_list_says_in_words_of_its_own_stays_and_what_is_not_understood_is_told() {
+    let list = "name,model,Mass (kg),width,height,storey\na,X-1,80,0.5,2,G\nb,,90,0.6,2,2.5\n";
+    let folder = folder(&[("list.csv", list), ("low.csv", "name,width\na,0.5\n")]);
+    let here = folder.path();
+    let call = format!("evaluate --structures list.csv {HAZARD} --out");
+    let (text, _) = succeed(here, &format!("{call} a.parquet"));
+    let gaps = "Not understood in list.csv: column 'Mass (kg)'.";
+    assert_eq!(text.lines().nth(1), Some(gaps));
+    succeed(here, &format!("{call} own.html"));
+    succeed(here, "report --in a.parquet --out read.html");
+    for page in ["own.html", "read.html"] {
+        let page = std::fs::read_to_string(here.join(page)).unwrap();
+        assert!([gaps, "X-1", "How the files were read"].iter().all(|told| page.contains(told)), "{page}");
+    }
+    // An answer has a column called model.
+    assert_eq!(objects(here, "a.parquet")[0]["model (list)"], "X-1");
+    let read = &succeed(here, "inspect list.csv --format json").0;
+    let read: Value = serde_json::from_str(read).unwrap();
+    assert!(read["kind"] == "list" && read["columns"][3]["meaning"] == "width", "{read}");
+    let reason = succeed(here, "evaluate --structures list.csv --format json").0;
+    assert!(reason.contains(read["others"][1].as_str().unwrap().rsplit(": ").next().unwrap()), "{read}");
+    fail(
+        here,
+        "inspect low.csv",
+        1,
+        &["low.csv: headings name, width; expected name, width, depth and height"],
+    );
 }
 
 #[test]

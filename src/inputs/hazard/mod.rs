@@ -19,7 +19,7 @@ pub use self::columns::{contradict, peak};
 use self::said::Said;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
-use super::{Grid, InputError, Meaning, Reader, Result};
+use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::number::period;
 use crate::source;
 
@@ -42,6 +42,12 @@ pub fn read(
         None => joined(&found.curves, &mut found.warnings)?,
     };
     Ok((hazard, found.warnings))
+}
+
+/// Whether a heading is of a hazard: it says how often, or OpenQuake wrote it.
+pub fn is_of_hazard(heading: &Heading) -> bool {
+    let is_exported = ["gmv_", "poe-"].iter().any(|start| heading.text.starts_with(start));
+    is_exported || HazardColumn::new(0, heading, &Said::in_years(1.0)).frequency.is_some()
 }
 
 /// A point of a curve, and the cell of its rate.

@@ -21,6 +21,11 @@ pub struct Said {
 }
 
 impl Said {
+    /// Of a file whose probabilities are for so many years.
+    pub fn in_years(years: f64) -> Said {
+        Said { years: Some(years), ..Said::default() }
+    }
+
     /// Reads comments, titles and remarks.
     pub fn new(grid: &Grid) -> Result<Said> {
         let mut said = Said { years: investigation_years(grid), ..Said::default() };

@@ -22,15 +22,17 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{StructureArgs, named};
+use super::shared::reading_args::ReadingArgs;
 use crate::answer::{self, Answer, AnswerTable, AtSite, Question, assess, variants, variants_beside};
 use crate::chart::{DPI, png, svg};
 use crate::document::{Document, workbook};
-use crate::inputs::{Reader, Rename, hazard};
+use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
+use crate::table::provenance::Provenance;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
@@ -59,9 +61,6 @@ pub struct Evaluate {
     /// or PGA and PGV together, by rates of occurrence or as OpenQuake's ground-motion fields
     #[arg(long, value_name = "FILE,...", value_hint = FilePath)]
     hazard: Vec<PathBuf>,
-    /// Years represented by the ground-motion fields of --hazard
-    #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
-    effective_years: Option<f64>,
     /// Moment magnitude of motions without one [default: inferred from PGV/PGA, else that of motions that
     /// overturn]; at a site the mean of the disaggregation at 2475 years, of SA(1.0 s) with that curve, else of
     /// PGA (not used with PGV alone)
@@ -70,12 +69,9 @@ pub struct Evaluate {
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
     #[arg(long, value_name = "M/S", value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
-    /// Column names for headings of --hazard, --structures or --in
-    #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
-    columns: Vec<Rename>,
-    /// Headings of columns of these files to leave out
-    #[arg(long, value_name = "HEADING,...", value_delimiter = ',')]
-    ignore: Vec<String>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    reading: ReadingArgs,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -171,10 +167,11 @@ impl Stage for Evaluate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (models, mut reader) = (self.model.read()?, Reader::new(&self.columns, &self.ignore));
+        let (models, mut reader) = (self.model.read()?, self.reading.reader());
         if let Some(path) = &self.input {
             let (rows, text) = table::evaluate(self, path, &mut reader, &models, context)?;
             reader.expect_used()?;
+            context.tell(reader.readings);
             self.write(&rows, &text, context, &Document::default())?;
             return self.in_format(&rows, text);
         }
@@ -194,7 +191,8 @@ impl Stage for Evaluate {
         }
         warn(&rows, context);
         let all = answer::table(&rows, &question)?;
-        let made = vec![context.plan.made.clone()];
+        context.tell(reader.readings);
+        let made = vec![Provenance { readings: context.readings(), ..context.plan.made.clone() }];
         let mut table = AnswerTable { rows, made, ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
@@ -261,8 +259,8 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, reader: &mut Reader, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, unused) = hazard::read(&self.hazard, reader, self.effective_years)?;
-        context.warn(unused);
+        let (mut hazard, doubts) = hazard::read(&self.hazard, reader, self.reading.effective_years)?;
+        context.warn(doubts);
         match &mut hazard {
             Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
                 *pgv_pga = self.ratio.map(PgvPgaRatio::given);
@@ -287,9 +285,9 @@ impl Evaluate {
             let object = |of: &Structure| Object::with_parameters(of, Restitution::Fitted(of.eta));
             return Ok(models.structures()?.iter().map(|of| object(of).at(&self.place)).collect());
         }
-        let (objects, unused) = self.structures.objects(&self.place, reader)?;
+        let (objects, doubts) = self.structures.objects(&self.place, reader)?;
         reader.expect_used()?;
-        context.warn(unused);
+        context.warn(doubts);
         let are_all = objects.iter().all(Object::is_implausible);
         match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {
             (Some(reason), Some(path)) if are_all => {

@@ -128,7 +128,7 @@ impl Stage for ImportMotions {
         };
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
         let about = about.map_err(|error| UsageError::because(error.to_string()))?;
-        context.warn(about.unused.iter().map(|heading| (Warning::UnusedColumns, heading.clone())).collect());
+        context.tell(self.about.iter().map(|_| about.reading.clone()).collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = context.plan.made.inputs.get("files").into_iter().flatten();

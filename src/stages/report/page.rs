@@ -91,7 +91,8 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.answer_of(stage));
     head.facts.extend(motions.map(|answer| format!("Motions: {}.", literal(answer))));
     head.figures.extend(seen);
-    Ok((Document { sections, ..head }, all))
+    head.sections.extend(sections);
+    Ok((head, all))
 }
 
 /// Draws all figures; what is too much to draw is left out.
@@ -181,7 +182,7 @@ fn table<R: Serialize>(caption: &str, rows: impl IntoIterator<Item = R>, fields:
     let rows = rows.into_iter().map(|row| json!(row));
     let cells = rows.map(|row| fields.split(' ').map(|field| cell(&row, field)).collect());
     let heads = fields.split(' ').map(|field| field.replace('_', " ")).collect();
-    Table { caption: caption.to_string(), heads, rows: cells.collect() }
+    Table { caption: caption.to_string(), heads, rows: cells.collect(), ..Table::default() }
 }
 
 fn cell(row: &Value, field: &str) -> String {
@@ -322,7 +323,7 @@ fn claims(tables: &Tables) -> Vec<Table> {
             "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more; those \
              with \u{2717} do not support the claim."
         );
-        Table { caption, heads, rows: lines }
+        Table { caption, heads, rows: lines, ..Table::default() }
     };
     by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
 }

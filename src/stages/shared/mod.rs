@@ -6,4 +6,5 @@ pub mod motion_columns;
 pub mod motions;
 pub mod objects;
 pub mod observed;
+pub mod reading_args;
 pub mod responses;

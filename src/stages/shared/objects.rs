@@ -17,8 +17,9 @@ use strum::VariantArray;
 use crate::inputs::Reader;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{Rule, number};
+use crate::pipeline::options::Rule;
 use crate::pipeline::paths::Read;
+use crate::stages::shared::reading_args::ListArgs;
 
 /// Adds the fields of an object to the options of a stage.
 pub fn with_fields(stage: Command) -> Command {
@@ -57,9 +58,9 @@ pub struct StructureArgs {
     /// (list.xlsx#SHEET), or the word paper for the paper's two
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub structures: Option<PathBuf>,
-    /// Number that the floors of --structures give the ground floor: 0 or 1
-    #[arg(long, value_name = "N", value_parser = number(0..=1_u32, "0 or 1"))]
-    ground_floor: Option<u32>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    list: ListArgs,
 }
 
 impl StructureArgs {
@@ -75,7 +76,7 @@ impl StructureArgs {
             &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"],
         ),
         Rule::Either(&["eta"], &["base"]),
-        Rule::Needs(&["ground-floor"], &["structures"]),
+        Rule::Needs(&["ground-floor", "storeys", "building"], &["structures"]),
     ];
 
     pub fn input(&self) -> Read {
@@ -94,8 +95,8 @@ impl StructureArgs {
 
     /// Finds the structures of all objects, one for each of its directions, the weaker first, and warnings
     /// about them and their list: of a list without its rows that do not rock on the ground.
-    pub fn resolve(&self) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
-        let (objects, mut warnings) = self.objects(&Place::default(), &mut Reader::default())?;
+    pub fn resolve(&self, reader: &mut Reader) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
+        let (objects, mut warnings) = self.objects(&Place::default(), reader)?;
         let mut resolved = Vec::new();
         for object in &objects {
             let name = &object.name;
@@ -119,18 +120,12 @@ impl StructureArgs {
         Ok((resolved, warnings))
     }
 
-    /// Finds all objects, each with what is wrong with it, and warnings about columns of a list that say
-    /// nothing of them.
+    /// Finds all objects, each with what is wrong with it, and doubts about them.
     pub fn objects(&self, place: &Place, reader: &mut Reader) -> anyhow::Result<(Vec<Object>, Warnings)> {
         let is_paper = self.structures.as_deref() == Some(Path::new(PAPER));
-        let (mut all, unused) = match &self.structures {
+        let (mut all, doubts) = match &self.structures {
             Some(list) if !is_paper => {
-                let defaults = ListDefaults {
-                    ground_floor: self.ground_floor,
-                    place: *place,
-                    ..ListDefaults::default()
-                };
-                objects::read(list, reader, &defaults)?
+                objects::read(list, reader, &ListDefaults { place: *place, ..self.list.defaults() })?
             }
             _ => (self.structure.clone(), Warnings::default()),
         };
@@ -148,7 +143,7 @@ impl StructureArgs {
             let problem = format!("two structures are called '{name}'; expected distinct names");
             return Err(UsageError::because(problem));
         }
-        Ok((all.into_iter().map(|object| object.at(place)).collect(), unused))
+        Ok((all.into_iter().map(|object| object.at(place)).collect(), doubts))
     }
 }
 

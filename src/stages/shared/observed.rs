@@ -3,21 +3,22 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use anyhow::{Context, bail, ensure};
+use anyhow::{Context as _, bail, ensure};
 use polars_core::prelude::AnyValue;
 use rockfrag_core::fragility::ObservedOutcome;
 use rockfrag_core::object::structure_warnings;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use crate::inputs::intensities::motions;
-use crate::inputs::objects::{self, ListDefaults};
+use crate::inputs::objects;
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError};
+use crate::pipeline::context::Context;
 use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame;
 
-/// Reads outcomes from CSV or Parquet, and what of it is not used; none of responses, which have demands.
-pub fn read(path: &Path) -> anyhow::Result<Option<(Vec<ObservedOutcome>, Warnings)>> {
+/// Reads outcomes from CSV or Parquet; none of responses, which have demands.
+pub fn read(path: &Path, context: &Context) -> anyhow::Result<Option<Vec<ObservedOutcome>>> {
     let grid = if path.is_file() && !is_table(path) {
         Grid::read(path)
     } else {
@@ -27,7 +28,7 @@ pub fn read(path: &Path) -> anyhow::Result<Option<(Vec<ObservedOutcome>, Warning
         }
         Grid::from_cells(&frame::cells(&frame::read(&table)?, in_full))
     };
-    let read = grid.map_err(Into::into).and_then(|grid| outcomes(&grid));
+    let read = grid.map_err(Into::into).and_then(|grid| outcomes(&grid, path, context));
     read.map(Some).with_context(|| path.display().to_string())
 }
 
@@ -39,7 +40,7 @@ fn in_full(value: AnyValue) -> String {
     }
 }
 
-fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
+fn outcomes(grid: &Grid, path: &Path, context: &Context) -> anyhow::Result<Vec<ObservedOutcome>> {
     let mut doubts = Warnings::default();
     let (Some(motions), Some(fell)) = (motions(grid, &mut doubts)?, grid.about("outcome")) else {
         let expected = "objects, and of each pga_g, pgv_m_s and fell (yes or no)";
@@ -53,8 +54,9 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
     ensure!(outcomes.len() < 2, several);
     let earthquake = grid.about("earthquake");
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
-    let (objects, unused) = objects::in_rows(grid, &others, &ListDefaults::default())?;
-    doubts.extend(unused);
+    let (objects, about_list, meanings) = objects::in_rows(grid, &others)?;
+    doubts.extend(about_list);
+    context.tell(vec![grid.reading(path, meanings)]);
     let (mut earthquakes, mut rows, mut read) = (HashMap::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", grid.lines[row]);
@@ -86,7 +88,8 @@ fn outcomes(grid: &Grid) -> anyhow::Result<(Vec<ObservedOutcome>, Warnings)> {
         }
         read.push(ObservedOutcome { structure, peaks, mw, earthquake: number, fell });
     }
-    Ok((read, doubts))
+    context.warn(doubts);
+    Ok(read)
 }
 
 fn has_fallen(grid: &Grid, row: usize, column: usize) -> Result<bool, InputError> {

@@ -1,4 +1,6 @@
-//! inspect: what a file holds and where it came from.
+//! inspect: what a file holds and where it came from, or how it is read.
+
+mod own;
 
 use std::path::PathBuf;
 
@@ -6,18 +8,21 @@ use arrow_schema::Field;
 use clap::{Args, ValueHint};
 use parquet::file::metadata::ParquetMetaData;
 use parquet::file::statistics::Statistics;
+use rockfrag_core::units::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::number::visible;
-use crate::table::file::ParquetTable;
+use crate::pipeline::options::number;
+use crate::stages::shared::reading_args::{ListArgs, ReadingArgs};
+use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::{dictionary, rows};
 
-/// Show what a file holds and where it came from
+/// Show what a file holds and where it came from, or how a list, hazard, table of motions or record is read
 #[derive(Debug, Args)]
 pub struct Inspect {
-    /// A Parquet file, or a folder of them
+    /// A Parquet file, or a folder of them; a file of your own
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]
     file: PathBuf,
     /// Print the first N rows in place of the columns
@@ -26,6 +31,19 @@ pub struct Inspect {
     /// text, csv or json
     #[arg(long, default_value = "text")]
     pub format: Format,
+    #[command(flatten)]
+    reading: ReadingArgs,
+    #[command(flatten)]
+    list: ListArgs,
+    /// Time step of a record, s
+    #[arg(long, value_name = "S", value_parser = number(1e-6..=10.0, "a time step above 0 s and up to 10 s"))]
+    dt: Option<f64>,
+    /// Unit of acceleration of a record
+    #[arg(long, value_parser = Unit::parse_acceleration)]
+    unit: Option<Unit>,
+    /// Column of a record: number, heading, or all
+    #[arg(long, value_name = "N|NAME|all")]
+    column: Option<String>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -49,6 +67,9 @@ struct Inspected {
 impl Inspect {
     /// The text to print.
     pub fn run(&self) -> anyhow::Result<String> {
+        if !self.file.is_dir() && !is_table(&self.file) {
+            return self.own();
+        }
         let table = ParquetTable::open(&self.file)?;
         if let Some(head) = self.head {
             let shown = frame::show(&frame::read(&table.head(head))?, self.format)?;
