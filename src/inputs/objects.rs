@@ -511,15 +511,17 @@ fn unit_of_remark(note: &str) -> Option<Unit> {
     let words: Vec<&str> =
         note.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let behind = [""].into_iter().chain(words.iter().copied());
-    let mut units = behind.zip(&words).filter(|(before, word)| {
+    let units = behind.zip(&words).filter(|(before, word)| {
         let is_number = before.ends_with(|sign: char| sign.is_ascii_digit());
         !is_number
             && (word.len() > 2 || ["cm", "mm", "ft"].contains(word) || *before == "in" && **word == "m")
     });
-    let unit = units.find_map(|(_, word)| Unit::parse(word).filter(|unit| unit.quantity == Quantity::Length));
-    unit.or_else(|| {
-        Heading::new(&note).unit.filter(|unit| unit.quantity == Quantity::Length && unit.name != "m")
-    })
+    let units =
+        units.filter_map(|(_, word)| Unit::parse(word).filter(|unit| unit.quantity == Quantity::Length));
+    let units: Vec<Unit> = units.collect();
+    let in_brackets = Heading::new(&note).unit.filter(|unit| unit.quantity == Quantity::Length);
+    // Several say what may stand in headings.
+    units.first().copied().or(in_brackets).filter(|first| units.iter().all(|unit| unit == first))
 }
 
 /// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.

@@ -50,7 +50,7 @@ fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
         expect_workbook(&String::from_utf8_lossy(&bytes))?;
     }
     let is_archive = bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06");
-    let zipped = if is_archive { zipped(&bytes, &mut left)? } else { None };
+    let zipped = if is_archive { zipped(&bytes, most, &mut left)? } else { None };
     for Member { name, mut bytes } in zipped.unwrap_or_else(|| vec![Member { name: None, bytes }]) {
         if bytes.starts_with(b"\x1f\x8b") {
             bytes = read(MultiGzDecoder::new(bytes.as_slice()), &mut left)?;
@@ -60,14 +60,17 @@ fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
             _ => members.push(Member { name, bytes }),
         }
     }
-    if members.len() > most {
-        return Err(InputError::Members { found: members.into_iter().filter_map(|one| one.name).collect() });
-    }
+    expect_few(most, members.iter().filter_map(|one| one.name.as_ref()))?;
     Ok(members)
 }
 
+fn expect_few<'a>(most: usize, names: impl Iterator<Item = &'a String>) -> Result<()> {
+    let found: Vec<String> = names.cloned().collect();
+    if found.len() > most { Err(InputError::Members { found }) } else { Ok(()) }
+}
+
 /// Reads the files of a zip archive; none of a workbook, whose parts must be small all the same.
-fn zipped(bytes: &[u8], left: &mut u64) -> Result<Option<Vec<Member>>> {
+fn zipped(bytes: &[u8], most: usize, left: &mut u64) -> Result<Option<Vec<Member>>> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let is_workbook = archive.file_names().any(|name| matches!(name, "[Content_Types].xml" | "mimetype"));
     let names = (0..archive.len()).filter_map(|at| Some((archive.name_for_index(at)?.to_string(), at)));
@@ -77,6 +80,7 @@ fn zipped(bytes: &[u8], left: &mut u64) -> Result<Option<Vec<Member>>> {
     };
     let mut files: Vec<(String, usize)> = names.filter(|(name, _)| is_file(name)).collect();
     files.sort();
+    expect_few(if is_workbook { usize::MAX } else { most }, files.iter().map(|(name, _)| name))?;
     let mut members = Vec::new();
     for (name, at) in files {
         expect_workbook(&name)?;

@@ -136,12 +136,12 @@ fn a_list_is_answered_and_counted_as_its_objects_are() {
 
 #[test]
 fn what_a_list_says_in_words_of_its_own_stays_and_what_is_not_understood_is_told() {
-    let list = "name,model,Mass (kg),width,height,storey\na,X-1,80,0.5,2,G\nb,,90,0.6,2,2.5\n";
+    let list = "name,model,Value,width,height,storey\na,X-1,80,0.5,2,G\nb,,90,0.6,2,2.5\n";
     let folder = folder(&[("list.csv", list), ("low.csv", "name,width\na,0.5\n")]);
     let here = folder.path();
     let call = format!("evaluate --structures list.csv {HAZARD} --out");
     let (text, _) = succeed(here, &format!("{call} a.parquet"));
-    let gaps = "Not understood in list.csv: column 'Mass (kg)'.";
+    let gaps = "Not understood in list.csv: column 'Value'.";
     assert_eq!(text.lines().nth(1), Some(gaps));
     succeed(here, &format!("{call} own.html"));
     succeed(here, "report --in a.parquet --out read.html");
@@ -154,8 +154,6 @@ fn what_a_list_says_in_words_of_its_own_stays_and_what_is_not_understood_is_told
     let read = &succeed(here, "inspect list.csv --format json").0;
     let read: Value = serde_json::from_str(read).unwrap();
     assert!(read["kind"] == "list" && read["columns"][3]["meaning"] == "width", "{read}");
-    let reason = succeed(here, "evaluate --structures list.csv --format json").0;
-    assert!(reason.contains(read["others"][1].as_str().unwrap().rsplit(": ").next().unwrap()), "{read}");
     fail(
         here,
         "inspect low.csv",

@@ -199,7 +199,7 @@ fn nothing_of_a_file_moves_or_reorders_the_terminal_or_begins_a_line() {
         ("run run.yaml", 0),
         ("run option.yaml", 2),
         ("run value.yaml", 2),
-        ("evaluate --structures wrong.csv --pga 0.5 --pgv 0.4", 1),
+        ("evaluate --structures wrong.csv --pga 0.5 --pgv 0.4", 0),
         ("evaluate --structures heading.csv --pga 0.5 --pgv 0.4", 1),
     ];
     // A second time what is made is up to date.

@@ -121,15 +121,11 @@ impl Inspect {
     }
 }
 
-/// The floors of objects as they are read, and why some have no answer.
+/// The floors of objects as they are read.
 fn places(objects: &[Object]) -> Vec<String> {
-    let line = |Object { name, floor, place, refused, .. }: &Object| match (refused, place.level) {
-        (Some(reason), _) => Some(format!("{name}: no answer: {reason}")),
-        (None, level) => {
-            let level = level?;
-            let floor = floor.as_deref().unwrap_or(if level == 0.0 { "ground" } else { "floor" });
-            Some(format!("{name}: {floor} -> level {}", significant(level, 3)))
-        }
+    let line = |Object { name, floor, place, .. }: &Object| {
+        let (floor, level) = (floor.as_ref()?, place.level?);
+        Some(format!("{name}: {floor} -> level {}", significant(level, 3)))
     };
     objects.iter().filter_map(line).collect()
 }
