@@ -35,7 +35,7 @@ const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BEFORE: f64 = 4.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points above which a line is thin, and symbols are small.
+/// Number of points above which a line is thin; of a quarter of them, symbols are small.
 const FEW_POINTS: usize = 400;
 /// Room that several values of a row of names take, rows.
 const SPREAD: f64 = 0.64;
@@ -274,7 +274,7 @@ impl Picture {
                     Symbol::Dot => (0.9, 0.55),
                     Symbol::Circle | Symbol::Cross => (1.1, 0.7),
                 };
-                let part = if marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
+                let part = if 4 * marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
                 self.symbols(&places, symbol, part * radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {

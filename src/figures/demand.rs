@@ -126,14 +126,22 @@ fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> 
         Outcome::Overturned => Some(fallen * most),
     };
     let layers = marked(cases, |row| Some(Mark::new(value(row)?, edp(row)?)));
-    let words =
-        [(&layers[0], rest_words * LEAST, Ink::Muted), (&layers[2], fallen_words * most, Ink::Data(1))];
-    let words = words.into_iter().filter_map(|(layer, y, ink)| {
-        let x = layer.marks.iter().map(|mark| mark.x).reduce(f64::min)?;
-        Some(Words { x, y, text: layer.name.clone(), position: LabelPosition::Right, ink })
+    let ends = |layer: &Layer| Range::over(layer.marks.iter().map(|mark| mark.x));
+    let [first, last] = [ends(&layers[0]).low, ends(&layers[2]).high];
+    let words = [
+        (&layers[0], first, rest_words * LEAST, LabelPosition::Right),
+        (&layers[2], last, fallen_words * most, LabelPosition::Left),
+    ];
+    let words = words.into_iter().filter(|(layer, ..)| !layer.marks.is_empty());
+    let words = words.map(|(layer, x, y, position)| Words {
+        x,
+        y,
+        text: layer.name.clone(),
+        position,
+        ink: layer.ink,
     });
     let (words, title) = (words.collect(), format!("{}, over {}", name(cases), symbol));
-    let y = Axis::log(DEMAND).over(0.11 * LEAST, 2.0 * fallen_words * most);
+    let y = Axis::log(DEMAND).over(0.11 * LEAST, 1.5 * fallen_words * most);
     Panel { words, ..Panel::new(&title, Axis::log(x), y, layers) }
 }
 
@@ -254,7 +262,7 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
     }
     let caption = format!(
         "Demand in safe rocking over ln IM4 and ln IM3 with its two planes (Table II), seen along the line \
-         in which they meet. {}",
+         in which they meet. {} The line is at the median IM3.",
         of_floor(fits)
     );
     Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels)

@@ -157,7 +157,7 @@ fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
             for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
                 let [now, then] = [stated.get(flag).cloned(), paper.get(flag).map(text_of)]
                     .map(|text| text.unwrap_or("none".into()))
-                    .map(|text| text.strip_suffix(".0").map(str::to_string).unwrap_or(text));
+                    .map(|text| text.replace(".0,", ",").trim_end_matches(".0").to_string());
                 let has =
                     |one: &str| LISTS.contains(&flag.as_str()) && now.split(',').any(|other| other == one);
                 let difference = format!("{stage} --{flag} {now}, not {then}");

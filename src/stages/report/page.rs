@@ -99,7 +99,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let mut groups: Vec<&Cases> = rocking.collect();
     let rest = groups.split_off(groups.len().min(MOST_GROUPS));
     if !rest.is_empty() {
-        let names = rest.into_iter().map(name).collect::<Vec<_>>().join(", ");
+        let names = rest.into_iter().map(name).collect::<Vec<_>>().join("; ");
         tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
     }
     groups.sort_by_key(|cases| order(cases));
