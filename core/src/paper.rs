@@ -72,6 +72,16 @@ pub struct SeedValue {
     pub value: f64,
 }
 
+/// Where the limits of a mean lie of what a claim asks for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Support {
+    For,
+    /// They hold its bound.
+    Undecided,
+    Against,
+}
+
 /// A number over seeds, and whether it supports a claim: a row of data/claims.csv (scripts/claims.py).
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Claim {
@@ -79,13 +89,13 @@ pub struct Claim {
     pub quantity: String,
     pub suite: String,
     pub structure: String,
-    /// Side or value that the claim asks for.
+    /// What the claim asks for.
     pub claimed: String,
     pub mean: f64,
     /// Limits of one more seed.
     pub low: f64,
     pub high: f64,
-    pub supports: Option<bool>,
+    pub support: Option<Support>,
     /// Of the claim as a whole.
     pub verdict: String,
     pub figure: String,

@@ -35,7 +35,7 @@ const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BEFORE: f64 = 4.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points above which a line is thin.
+/// Number of points above which a line is thin; of a quarter of them, symbols are small.
 const FEW_POINTS: usize = 400;
 /// Room that several values of a row of names take, rows.
 const SPREAD: f64 = 0.64;
@@ -162,7 +162,8 @@ impl Picture {
     /// Draws the legend of panels in lines.
     fn legend(&mut self, panels: &[Panel]) {
         let (mut x, mut y) = (BEFORE, self.height + 11.0);
-        for Layer { name, ink, style, .. } in listed(panels) {
+        for Layer { name, ink, style, marks, .. } in listed(panels) {
+            let limits = f64::from(marks.iter().any(|mark| mark.low.is_finite()));
             let long = MARK + 3.0 + width(name, LETTERS);
             if x > BEFORE && x + long > self.width {
                 (x, y) = (BEFORE, y + LEGEND);
@@ -170,8 +171,14 @@ impl Picture {
             let along = |part: f64| Point::new(x + part * MARK, y - 2.6);
             match *style {
                 MarkStyle::Points(symbol) => self.symbols(&[along(0.5)], symbol, 2.0, *ink, 1.0),
-                MarkStyle::Line(dash) => self.path(&[along(0.0), along(1.0)], *ink, 1.3, dash),
-                MarkStyle::Estimates => self.estimate(along(0.5), [along(0.07), along(0.93)], *ink),
+                MarkStyle::Line(dash) => {
+                    let ends = [0.0, 1.0].map(along);
+                    self.stroke(&course(&ends), *ink, 6.0 * limits, " stroke-opacity=\"0.16\"");
+                    self.path(&ends, *ink, 1.3, dash);
+                }
+                MarkStyle::Estimates => {
+                    self.estimate(along(0.5), [0.5 - 0.43 * limits, 0.5 + 0.43 * limits].map(along), *ink);
+                }
             }
             self.write([x + MARK + 3.0, y], LabelPosition::Legend, Ink::Text, name);
             x += long + BETWEEN;
@@ -267,7 +274,8 @@ impl Picture {
                     Symbol::Dot => (0.9, 0.55),
                     Symbol::Circle | Symbol::Cross => (1.1, 0.7),
                 };
-                self.symbols(&places, symbol, radius, ink, opacity);
+                let part = if 4 * marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
+                self.symbols(&places, symbol, part * radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {
                 let has_band = |mark: &Mark| mark.is_finite() && mark.low.is_finite();

@@ -4,6 +4,7 @@ use rockfrag_core::fragility::{
     Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, Predictors,
 };
 use rockfrag_core::motion::Suite;
+use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
@@ -23,6 +24,8 @@ pub struct Fits {
     pub calibrations: Vec<Calibration>,
     /// Demand whose exceedance was fitted.
     pub limit_state: f64,
+    /// Rotation (rad) to which the fits of the demand raise smaller ones.
+    pub rotation_floor: f64,
 }
 
 impl Fits {
@@ -49,6 +52,9 @@ const LONGEST_NAME: usize = 200;
 
 /// The name of a structure; without one, the block that rocks like it. Marked text.
 pub fn called(structure: &Structure) -> String {
+    if paper::STRUCTURES.iter().any(|(name, ..)| structure.name == *name) {
+        return structure.name.replace('-', " ");
+    }
     if structure.name != UNNAMED {
         return literal(&number::shown(&structure.name, LONGEST_NAME));
     }
@@ -57,10 +63,27 @@ pub fn called(structure: &Structure) -> String {
     format!("block of {width} × {height} m")
 }
 
+/// Names the motions of a suite; marked text.
+pub fn motions_of(suite: &str) -> String {
+    match suite.parse() {
+        Ok(Suite::Pulse) => "pulses".to_string(),
+        Ok(Suite::Csgm) => "combined motions".to_string(),
+        Ok(Suite::Hfc) => "high frequencies".to_string(),
+        Ok(Suite::Record) => "records".to_string(),
+        Err(_) => literal(suite),
+    }
+}
+
 /// Joins a structure, marked text, with the suite of synthetic motions.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
     let synthetic = suite.filter(|suite| suite.parse() != Ok(Suite::Record));
-    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {suite}"))
+    synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {}", motions_of(suite)))
+}
+
+/// The place of a suite among others.
+pub fn order(cases: &Cases) -> usize {
+    let suite = cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
+    suite.map_or(usize::MAX, |suite| suite as usize)
 }
 
 /// Names the structure and suite of some cases; marked text.

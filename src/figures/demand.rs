@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandFit, DemandModel, Group, Measure, PLANE, Predictors, ln_median_demand,
+    Case, Cases, DemandFit, DemandModel, Group, Measure, PLANE, ln_median_demand,
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Outcome;
@@ -14,13 +14,14 @@ use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel, Symbol};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number::{self, PERCENT};
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;
-/// Where overturned structures stand: so many times the largest demand, or 1.
-const TOP: f64 = 2.0;
+/// Where structures stand that do not rock and that overturn, and the words above them: so many times the
+/// least demand, and the largest or 1.
+const STRIPS: [[f64; 2]; 2] = [[0.18, 0.4], [2.0, 4.4]];
 /// The column of the velocity of the pulse.
 pub const VP: &str = "vp_m_s";
 const PERIOD: &str = "*T*_{p} (s)";
@@ -58,8 +59,8 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
     let panels: Vec<Panel> = planes.chain(over_velocity).chain(over_period).collect();
     let mut caption = format!(
-        "Outcomes over velocity and period of the pulse, and demand over each: at the bottom where the \
-         structure does not rock, at the top where it overturns; none below {LEAST}."
+        "Outcomes over velocity and period of the pulse, and demand over each, from {LEAST} on; in strips \
+         below and above, motions that do not rock the structure and that overturn it."
     );
     if value > 0.0 {
         let [value, low, high] = [value, low, high].map(|c| number::significant(c, 2));
@@ -109,21 +110,39 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
             high: limit(x, c.low),
             ..Mark::new(x, limit(x, c.value))
         });
-        layers.push(Layer::line("Eq. 5 for the pulse alone", Ink::Text, line));
+        layers.push(Layer::line("Eq. 5 for the pulse alone, 90 % of pulses", Ink::Text, line));
     }
     let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
     Panel::new(&name(cases), Axis::log(PERIOD), y, layers).explained(caption)
 }
 
 fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> Panel {
-    let top = TOP * demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
+    let most = demands(cases).map(|(_, edp)| edp).fold(1.0, f64::max);
+    let [[rest, rest_words], [fallen, fallen_words]] = STRIPS;
+    let (symbol, _) = x.split_once(" (").unwrap_or((x, ""));
     let edp = |row: usize| match cases.all[row].outcome {
-        Outcome::NoRocking => LEAST,
-        Outcome::SafeRocking(edp) => edp,
-        Outcome::Overturned => top,
+        Outcome::NoRocking => Some(rest * LEAST),
+        Outcome::SafeRocking(edp) => Some(edp).filter(|edp| *edp >= LEAST),
+        Outcome::Overturned => Some(fallen * most),
     };
-    let layers = marked(cases, |row| Some(Mark::new(value(row)?, edp(row))));
-    Panel::new(&name(cases), Axis::log(x), Axis::log(DEMAND).over(0.8 * LEAST, 1.3 * top), layers)
+    let layers = marked(cases, |row| Some(Mark::new(value(row)?, edp(row)?)));
+    let ends = |layer: &Layer| Range::over(layer.marks.iter().map(|mark| mark.x));
+    let [first, last] = [ends(&layers[0]).low, ends(&layers[2]).high];
+    let words = [
+        (&layers[0], first, rest_words * LEAST, LabelPosition::Right),
+        (&layers[2], last, fallen_words * most, LabelPosition::Left),
+    ];
+    let words = words.into_iter().filter(|(layer, ..)| !layer.marks.is_empty());
+    let words = words.map(|(layer, x, y, position)| Words {
+        x,
+        y,
+        text: layer.name.clone(),
+        position,
+        ink: layer.ink,
+    });
+    let (words, title) = (words.collect(), format!("{}, over {}", name(cases), symbol));
+    let y = Axis::log(DEMAND).over(0.11 * LEAST, 1.5 * fallen_words * most);
+    Panel { words, ..Panel::new(&title, Axis::log(x), y, layers) }
 }
 
 /// The modified dispersion |zeta| = beta / |b|.
@@ -147,6 +166,8 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         if let Some(fit) = laws.iter().find(|fit| fit.im_x == measure && low < high) {
             let line = [low, high].map(|im| Mark::new(im, ln_median_demand(&fit.coefficients, &[im]).exp()));
             panel.layers.push(Layer::line("regression", Ink::Data(1), line));
+            let floor = [low, high].map(|im| Mark::new(im, fits.rotation_floor / cases.structure.alpha_rad));
+            panel.layers.push(Layer::guide("floor", Ink::Muted, floor));
             let [r2, beta, zeta] = [fit.r2, fit.beta, zeta(fit)];
             let [r2, beta] = [r2, beta].map(|value| number::fixed(value.unwrap_or(f64::NAN), 2));
             let zeta = number::significant(zeta.unwrap_or(f64::NAN), 3);
@@ -155,45 +176,67 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         panels.push(panel);
     }
     let group = name(cases);
-    let caption =
-        "Demand in safe rocking with ln EDP = ln *a* + *b* ln IM; *β* is the dispersion, *ζ* = *β*/*b*.";
-    let file = format!("regressions-{}", file_words(&group));
+    let caption = format!(
+        "Demand in safe rocking with ln EDP = ln *a* + *b* ln IM; *β* is the dispersion, *ζ* = *β*/*b*. {}",
+        of_floor(fits)
+    );
+    let suite = cases.suite.as_deref().unwrap_or_default();
+    let file = format!("regressions-{}", file_words(&format!("{} {suite}", cases.structure.name)));
     Figure::new(&file, &format!("Demand over one measure: {group}"), 3, 90.0, panels)
-        .explained(compare(caption, "Figure 7"))
+        .explained(compare(&caption, "Figure 7"))
+}
+
+/// What a caption says of rotations below those of the fits.
+fn of_floor(fits: &Fits) -> String {
+    let floor = number::significant(fits.rotation_floor, 1);
+    format!("Rotations are {floor} rad or more (thin line), as in the fits.")
 }
 
 /// Figure 8: R2, beta and zeta of the regressions of each group over all cases, and how well its curves of
 /// overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let laws = fits.demand.iter().filter(|fit| fit.model != DemandModel::Biplanar && fit.r2.is_some());
-    let panel = |value: fn(&DemandFit) -> Option<f64>, x: Axis| {
-        let all = laws.clone().map(|fit| (fit.group(), fit.predictors(), value(fit)));
-        dots(all.collect(), x, groups)
+    let laws = fits.demand.iter().filter(|fit| fit.r2.is_some());
+    let rows = |value: fn(&DemandFit) -> Option<f64>| {
+        let all = laws.clone().map(|fit| (fit.group(), row(fit), value(fit)));
+        all.collect::<Vec<Quality>>()
     };
     let from_zero = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
         let most = laws.clone().filter_map(value).fold(0.0, f64::max);
-        panel(value, Axis::linear(label).over(0.0, 1.08 * most))
+        dots(rows(value), Axis::linear(label).over(-0.03 * most, 1.08 * most), groups)
     };
-    let scores = fits.curves.iter().map(|fit| (fit.group(), fit.predictors(), fit.held_out_log_score));
-    let score = Axis::linear("log score of overturning on held-out cases (more is better)");
+    let scores = fits.curves.iter();
+    let scores = scores.map(|fit| (fit.group(), short_labels(&fit.predictors()), fit.held_out_log_score));
     let panels = [
         from_zero(|fit| fit.r2, "*R*^{2} (more is better)"),
         from_zero(|fit| fit.beta, "*β* (less is better)"),
-        panel(zeta, Axis::log("|*ζ*| = *β* / |*b*| (less is better)")),
-        dots(scores.collect(), score, groups),
+        dots(rows(zeta), Axis::log("|*ζ*| = *β* / |*b*| (less is better)"), groups),
+        dots(
+            scores.collect(),
+            Axis::linear("log score of overturning on held-out cases (more is better)"),
+            groups,
+        ),
     ];
-    let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit.";
+    let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit. Of \
+                   two measures, *b* is that of IM4; of two planes, *R*^{2} is about the own side's mean.";
     let panels = panels.into_iter().flatten().collect();
     Figure::new("quality", "Quality of the measures", 2, 0.0, panels).explained(compare(caption, "Figure 8"))
 }
 
-/// The number of a fit, of which group, and its measures.
-type Quality<'a> = (Group<'a>, Predictors, Option<f64>);
+/// The row of a regression.
+fn row(fit: &DemandFit) -> String {
+    match (fit.range_low, fit.range_high) {
+        (None, None) => short_labels(&fit.predictors()),
+        (None, Some(_)) => "two planes, below".to_string(),
+        _ => "two planes, above".to_string(),
+    }
+}
 
-/// A panel with a row for each set of measures and a dot for each group; none without a dot.
+/// The number of a fit, of which group, and the row in which it stands.
+type Quality<'a> = (Group<'a>, String, Option<f64>);
+
+/// A panel with a dot for each group in its rows; none without a dot.
 fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
-    let rows = by(&all, |(_, predictors, _)| predictors);
-    let names = rows.iter().map(|row| short_labels(&row[0].1));
+    let rows = by(&all, |(_, row, _)| row);
     let mut layers = Vec::new();
     for (number, cases) in groups.iter().enumerate() {
         let marks = rows.iter().zip(0_i32..).filter_map(|(row, place)| {
@@ -203,6 +246,7 @@ fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
         layers.push(Layer::new(&name(cases), Ink::Data(number), MarkStyle::Estimates, marks));
     }
     layers.retain(|layer| !layer.marks.is_empty());
+    let names = rows.iter().map(|row| row[0].1.clone());
     (!layers.is_empty()).then(|| Panel::new("", x, Axis::names(names), layers))
 }
 
@@ -214,16 +258,20 @@ pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
         let planes: Vec<&DemandFit> = fits.demand(cases, DemandModel::Biplanar).collect();
         let [low, high] = planes[..] else { continue };
         let coefficients = [low, high].map(|fit| Vector3::from_column_slice(&fit.coefficients));
-        panels.extend(high.range_low.map(|transition| planes_panel(cases, transition, coefficients)));
+        panels.extend(high.range_low.map(|transition| planes_panel(fits, cases, transition, coefficients)));
     }
-    let caption = "Demand in safe rocking over ln IM4 and ln IM3, in the paper velocity and period, with its \
-                   two planes (Table II), seen along the line in which they meet.";
+    let caption = format!(
+        "Demand in safe rocking over ln IM4 and ln IM3 with its two planes (Table II), seen along the line \
+         in which they meet. {} The line is at the median IM3.",
+        of_floor(fits)
+    );
     Figure::new("planes", "The two planes, seen edge-on", 2, 110.0, panels)
-        .explained(compare(caption, "Figure 9"))
+        .explained(compare(&caption, "Figure 9"))
 }
 
 /// The planes below the transition and from there on are ln a, b1 and b2 over ln IM4 and ln IM3.
-fn planes_panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
+fn planes_panel(fits: &Fits, cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Panel {
+    let floor = fits.rotation_floor / cases.structure.alpha_rad;
     let [right, up] = edge_on(planes);
     let view = |point: Vector3<f64>| Mark::new(right.dot(&point), up.dot(&point));
     let by_x = |a: &Mark, b: &Mark| a.x.total_cmp(&b.x);
@@ -232,7 +280,11 @@ fn planes_panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Pa
         let [im4, im3] = PLANE.map(|measure| measure.value_of(&case.measures));
         Some(Vector3::new(im4?.ln(), im3?.ln(), edp.ln()))
     });
-    let (below, above): (Vec<_>, Vec<_>) = points.partition(|case| case.x < transition.ln());
+    let points: Vec<Vector3<f64>> = points.collect();
+    let im3 = sample_quantile(points.iter().map(|case| case.y).collect(), 0.5).unwrap_or_default();
+    let ends = [0.0, points.iter().map(|case| case.x).fold(0.0, f64::max)];
+    let floor = ends.map(|im4| view(Vector3::new(im4, im3, floor.ln())));
+    let (below, above): (Vec<_>, Vec<_>) = points.into_iter().partition(|case| case.x < transition.ln());
     let sides = [("below the transition", Ink::Data(2), below), ("above it", Ink::Data(0), above)];
     let (mut layers, mut lines) = (Vec::new(), Vec::new());
     for ((label, ink, its), plane) in sides.into_iter().zip(planes) {
@@ -244,6 +296,7 @@ fn planes_panel(cases: &Cases, transition: f64, planes: [Vector3<f64>; 2]) -> Pa
         layers.push(Layer::points(label, ink, Symbol::Dot, its.into_iter().map(view)));
     }
     layers.extend(lines);
+    layers.extend((fits.rotation_floor > 0.0).then(|| Layer::guide("floor", Ink::Muted, floor)));
     let [x, y] = [right, up].map(|direction| Axis::linear(&sum(direction)));
     Panel::new(&name(cases), x, y, layers)
 }

@@ -102,7 +102,8 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     ];
     let motion = words(motion);
     let caption = format!(
-        "Rotation of two structures under one motion ({motion}), scaled in time by *p*, in size by tan *α*."
+        "Rotation of two structures under one motion ({motion}), its time scaled by 1/*p*, its acceleration \
+         by tan *α*."
     );
     let figure = Figure::new("similarity", "Two similar responses", 2, 105.0, panels);
     Some(figure.explained(compare(&caption, "Figure 5")))

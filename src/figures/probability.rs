@@ -6,12 +6,12 @@ use rockfrag_core::fragility::{Cases, Event, Measure, MotionKind, Predictors, Ta
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::statistics::scores::sample_quantile;
-use rockfrag_core::statistics::{Interval, Range};
+use rockfrag_core::statistics::{FitStatus, Interval, Range};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{Fits, by, called, compare, demands, estimate, label, name};
-use super::common::{observed_shares, ratio_bins, rocked, short_labels};
-use crate::chart::text::{literal, minus};
+use super::common::{motions_of, observed_shares, order, ratio_bins, rocked, short_label, short_labels};
+use crate::chart::text::minus;
 use crate::chart::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number;
 
@@ -38,7 +38,7 @@ pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
     let panels = panels.filter(|panel| !panel.layers.is_empty());
     let caption = format!(
         "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3, \
-         with a gap between them, and by IM4 alone where it has a curve; bands: 95 %.",
+         with a gap at the transition (thin line), and by IM4 alone if it has a curve; bands: 95 %.",
         number::plain(fits.limit_state)
     );
     let title = "Exceeding the limit state in safe rocking";
@@ -73,6 +73,8 @@ fn exceeding(fits: &Fits, cases: &Cases, im3: &[f64]) -> Panel {
             );
         }
     }
+    let upright = |im4: f64| Layer::guide("transition", Ink::Muted, [0.0, 1.0].map(|p| Mark::new(im4, p)));
+    panel.layers.extend(transition.map(upright));
     let alone = fits.demand(cases, DemandModel::Univariate).find(|fit| fit.im_x == Measure::Im4);
     panel.layers.extend(alone.map(|fit| {
         curve("IM4 alone", Ink::Muted, Dash::Mixed, equal_ratios(1.0, highest, STEPS), |im4| p(fit, im4, 1.0))
@@ -94,7 +96,8 @@ fn curve(
 
 /// What the captions of Figures 11 and 12 say of curves.
 const CURVES: &str = "*μ* = ln *θ*, *θ* the median, *β* the dispersion (where *P*_{ro} falls, of the inverse \
-                      measure). Dots: observed fractions. Bands and bars: 95 %.";
+                      measure). Curves that fall with a measure of strength have the wrong sign and are not \
+                      drawn. Dots: observed fractions. Bands and bars: 95 %.";
 
 /// Figure 11: probability of overturning over single measures; a panel a structure and measure.
 pub fn overturning(fits: &Fits, groups: &[&Cases]) -> Figure {
@@ -104,11 +107,12 @@ pub fn overturning(fits: &Fits, groups: &[&Cases]) -> Figure {
         .explained(compare(&caption, "Figure 11"))
 }
 
-/// Figure 12: probability of overturning over hybrid measures (Eq. 23); a panel a structure and pair.
+/// Figure 12: probability of overturning over hybrid measures (Eq. 23); a panel a structure, pair and suite.
 pub fn hybrids(fits: &Fits, groups: &[&Cases]) -> Figure {
     let caption = format!(
-        "Lognormal curves over hybrid measures (Eqs. 23 and 24): {CURVES} As IM5 = IM4 / IM3, the hybrids of \
-         any two of these three are one model."
+        "Lognormal curves over hybrid measures, each with its *λ*: IM_{{x}}^{{*λ*/(1+*λ*)}} \
+         IM_{{y}}^{{1/(1+*λ*)}} (Eqs. 23 and 24): {CURVES} As IM5 = IM4 / IM3, the hybrids of any two of \
+         these three are one model."
     );
     let panels = over(fits, groups, |predictors| predictors.im_y.is_some());
     Figure::new("hybrid", "Overturning over hybrid measures", 2, 118.0, panels)
@@ -121,29 +125,36 @@ fn predictors(fits: &Fits, groups: &[&Cases]) -> Vec<Predictors> {
     by(its, CurveFit::predictors).into_iter().map(|fits| fits[0].predictors()).collect()
 }
 
-/// P_ro over measures, a panel for each structure and each of the measures that are wanted.
+/// P_ro over measures that are wanted, a panel for each structure and, as a hybrid is of one fit, its suites.
 fn over(fits: &Fits, groups: &[&Cases], is_wanted: fn(&Predictors) -> bool) -> Vec<Panel> {
     let structures = by(groups.iter().copied(), |cases| &cases.structure.name).into_iter();
     let panels = structures.flat_map(|groups| {
         let wanted = predictors(fits, &groups).into_iter().filter(is_wanted);
-        wanted.map(|predictors| over_measure(fits, &groups, &predictors)).collect::<Vec<_>>()
+        let panels = wanted.flat_map(|predictors| {
+            let each = if predictors.im_y.is_some() { 1 } else { groups.len() };
+            groups.chunks(each).map(|part| over_measure(fits, part, &predictors)).collect::<Vec<_>>()
+        });
+        panels.collect::<Vec<_>>()
     });
     panels.collect()
 }
 
-/// The curves of the suites of a structure, with their parameters in the corner that the first leaves free.
+/// The curves of suites of a structure, with their parameters in the corner that the first leaves free.
 fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Panel {
-    let labels: Vec<&str> = predictors.measures().map(label).collect();
-    let hybrid = if labels.len() > 1 { "hybrid measure of " } else { "" };
-    let x = Axis::log(&format!("{hybrid}{}", labels.join(" and ")));
-    let title = format!("{}: {}", called(&groups[0].structure), short_labels(predictors));
-    let mut panel = Panel::new(&title, x, Axis::fraction("*P*_{ro}"), Vec::new());
+    let first = fits.curve(groups[0], predictors);
+    let (of, x) = match (first, &predictors.im_y) {
+        (Some(fit), Some(_)) => (name(groups[0]), hybrid(fit)),
+        _ => (called(&groups[0].structure), label(&predictors.im_x).to_string()),
+    };
+    let title = format!("{of}: {}", short_labels(predictors));
+    let mut panel = Panel::new(&title, Axis::log(&x), Axis::fraction("*P*_{ro}"), Vec::new());
     let mut words = Vec::new();
-    for (number, cases) in groups.iter().enumerate() {
-        let (ink, series) = (Ink::Data(number), literal(cases.suite.as_deref().unwrap_or("motions")));
+    for (line, cases) in groups.iter().enumerate() {
+        let (ink, series) =
+            (Ink::Data(order(cases)), motions_of(cases.suite.as_deref().unwrap_or("motions")));
         let fit = fits.curve(cases, predictors);
         let text = format!("{series}: {}", fit.map_or("no curve".to_string(), parameters));
-        let y = 0.95 - 0.1 * number as f64;
+        let y = 0.95 - 0.1 * line as f64;
         words.push(Words { x: f64::NAN, y, text, position: LabelPosition::Right, ink });
         let layers = fit.map_or(Vec::new(), |fit| overturned(fit, cases));
         let coloured = |layer| Layer { ink, series: series.clone(), is_listed: false, ..layer };
@@ -151,15 +162,26 @@ fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Pane
     }
     panel.layers.sort_by_key(|layer| layer.style == MarkStyle::Estimates);
     let span = Range::over(panel.layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.x));
-    let falls = fits.curve(groups[0], predictors).is_some_and(|fit| beta(&fit.coefficients).value < 0.0);
+    let falls = first.is_some_and(|fit| beta(&fit.coefficients).value < 0.0);
     let (x, position) =
         if falls { (span.high, LabelPosition::Left) } else { (span.low, LabelPosition::Right) };
     panel.words = words.into_iter().map(|words| Words { x, position, ..words }).collect();
     panel
 }
 
+/// The hybrid measure of a fit (Eq. 23).
+fn hybrid(fit: &CurveFit) -> String {
+    let lambda = lambda(&fit.coefficients).value;
+    let [x, y] = [lambda, 1.0].map(|part| minus(number::fixed(part / (1.0 + lambda), 2)));
+    let names: Vec<String> = fit.predictors().measures().map(short_label).collect();
+    format!("({})^{{{x}}} ({})^{{{y}}}", names[0], names[1])
+}
+
 /// The parameters of a curve.
 fn parameters(fit: &CurveFit) -> String {
+    if fit.status == FitStatus::WrongSign {
+        return "wrong sign".to_string();
+    }
     let b = &fit.coefficients;
     let written = |value: f64| minus(number::significant(value, 2));
     let (mu, beta) = (mu(b).value, beta(b).value);
@@ -191,7 +213,9 @@ fn overturned(fit: &CurveFit, cases: &Cases) -> Vec<Layer> {
         curve("lognormal curve", Ink::Muted, Dash::Solid, equal_ratios(span.low, span.high, STEPS), p);
     let bin = ratio_bins(span, (observed.len() / CASES).clamp(4, BINS));
     let shares = observed_shares(&observed, (observed.len() / 50).clamp(3, 20), bin);
-    vec![curve, Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares)]
+    let mut layers = vec![Layer::new("observed fraction", Ink::Muted, MarkStyle::Estimates, shares)];
+    layers.extend((fit.status != FitStatus::WrongSign).then_some(curve));
+    layers
 }
 
 /// Maps of overturning, a panel a group.

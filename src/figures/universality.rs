@@ -5,7 +5,7 @@ use rockfrag_core::paper::EXAMPLE_LAMBDA;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
 
-use super::common::{by, called, label, rocked};
+use super::common::{by, called, label, motions_of, order, rocked};
 use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
 use crate::number;
 
@@ -58,27 +58,42 @@ pub fn universality(groups: &[Cases]) -> Figure {
         (label(&Measure::Im5), |case| Some(case.measures.im5)),
         (&hybrid, |case| Some(hybrid_measure(case.measures.im4, 1.0 / case.measures.im3?, EXAMPLE_LAMBDA))),
     ];
-    let panels = by(groups, |cases| &cases.suite).into_iter().flat_map(|groups| {
+    let mut suites = by(groups, |cases| &cases.suite);
+    suites.sort_by_key(|groups| order(groups[0]));
+    let panels = suites.into_iter().flat_map(|groups| {
         measures.map(|(label, measure)| {
             let curves: Vec<Curve> = groups.iter().filter_map(|cases| Curve::fit(cases, measure)).collect();
-            (curves.len() >= LEAST_STRUCTURES).then(|| panel(label, &curves))
+            (curves.len() >= LEAST_STRUCTURES).then(|| panel(label, &curves, groups.len()))
         })
     });
-    let caption = "Lognormal curves of structures that at least ten motions overturn and ten do not, within \
-                   the range of these motions. Over a measure for which curves are universal, the medians \
-                   *θ* of all structures are one.";
+    let mut panels: Vec<Panel> = panels.flatten().collect();
+    one_width(&mut panels);
+    let caption = "Lognormal curves of structures that at least ten of one set (one seed) of motions \
+                   overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between them over \
+                   their mean *β*. Over a measure for which curves are universal, all medians *θ* are one.";
     let title = "Universality of the curves of overturning";
-    Figure::new("universality", title, 3, 118.0, panels.flatten().collect()).explained(caption)
+    Figure::new("universality", title, 3, 118.0, panels).explained(caption)
 }
 
-fn panel(label: &str, curves: &[Curve]) -> Panel {
+/// Makes a decade as wide in each panel.
+fn one_width(panels: &mut [Panel]) {
+    let span = |panel: &Panel| Range::over(panel.drawn().flat_map(|layer| &layer.marks).map(|mark| mark.x));
+    let widest = panels.iter().map(|panel| span(panel).high / span(panel).low).fold(1.0, f64::max);
+    for panel in panels {
+        let (middle, half) = ((span(panel).low * span(panel).high).sqrt(), (1.1 * widest).sqrt());
+        panel.x.range = Some([middle / half, middle * half]);
+    }
+}
+
+fn panel(label: &str, curves: &[Curve], structures: usize) -> Panel {
     let n = curves.len() as f64;
-    let mean = curves.iter().map(|curve| curve.mu).sum::<f64>() / n;
-    let sd = (curves.iter().map(|curve| (curve.mu - mean).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
-    let suite = curves[0].cases.suite.as_deref().unwrap_or("motions");
-    let title = format!("{suite}: sd of ln *θ* {}", number::fixed(sd, 2));
+    let mean = |of: fn(&Curve) -> f64| curves.iter().map(of).sum::<f64>() / n;
+    let (mu, beta) = (mean(|curve| curve.mu), mean(|curve| curve.beta));
+    let sd = (curves.iter().map(|curve| (curve.mu - mu).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
+    let suite = motions_of(curves[0].cases.suite.as_deref().unwrap_or("motions"));
+    let title = format!("{suite}, {n} of {structures}: sd / *β* {}", number::fixed(sd / beta, 2));
     let [low, high] = SLENDERNESS;
-    let colours = [format!("*α* up to {low}"), format!("{low} to {high}"), format!("above {high}")];
+    let colours = [format!("*α* ≤ {low} rad"), format!("{low} to {high} rad"), format!("> {high} rad")];
     let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Step(step), []));
     let layers = keys.chain(curves.iter().map(Curve::layer)).collect();
     Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)

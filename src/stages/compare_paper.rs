@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::DemandFit;
+use rockfrag_core::fragility::{CurveFit, DemandFit};
 use rockfrag_core::paper::{self, OTHER_ALPHA};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::studies::comparison::{Comparison, compare, verdict};
@@ -47,22 +47,22 @@ impl Stage for ComparePaper {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let demand: Vec<DemandFit> = rows::read(&self.pex)?;
-        let compared = compare(&demand, &rows::read(&self.pro)?);
+        let (demand, curves): (Vec<DemandFit>, Vec<CurveFit>) =
+            (rows::read(&self.pex)?, rows::read(&self.pro)?);
+        let mut compared = compare(&demand, &curves);
         let fits = [&self.pex, &self.pro].map(|path| Provenance::read(path).ok().flatten());
-        let differences = [other_structures(&demand), other_options(fits.into_iter().flatten())].concat();
-        let heads = ["suite", "structure", "plane", "ln a", "b1", "b2", "R2", "T2", "p"].map(str::to_string);
-        let planes: Vec<_> = [heads].into_iter().chain(table_two(&compared)).map(Vec::from).collect();
-        let numbers = rows::batch(compared.iter().filter(|row| row.plane.is_none()))?;
-        let columns = "quantity suite structure published mean z p ours ours_z".split(' ');
-        let summary = format!(
-            "{}\n{}\n\nplanes of Table II: published / mean of seeds / this run (its z from {FAR} on)\n{}\n\
-             other numbers\n{}",
-            verdict(&compared),
-            of_this_run(&compared, &differences),
-            aligned(&planes, |column| column > 2),
-            frame::text(&frame::from_batch(&numbers)?.select(columns)?),
-        );
+        let mut differences = other_structures(&demand);
+        if let [Some(pex), Some(pro)] = &fits
+            && pex.input("in") != pro.input("in")
+        {
+            differences.push("pex and pro are fits to different responses".to_string());
+        }
+        differences.extend(other_options(fits.into_iter().flatten()));
+        // Our seeds are spread as those of the paper's scenarios are.
+        if differences.iter().any(|difference| difference.starts_with(STAGES[0])) {
+            compared.iter_mut().for_each(|row| row.ours_z = None);
+        }
+        let summary = format!("{}\n{}", verdict(&compared), of_this_run(&compared, &differences)?);
         context.write::<Comparison>(&self.out, &compared, &summary)?;
         Ok(summary)
     }
@@ -71,39 +71,76 @@ impl Stage for ComparePaper {
 /// A number of the run this many standard deviations from the mean of the seeds is not one more of them.
 const FAR: f64 = 3.0;
 
-/// Whether this run is in the paper's set-up, and how many of its numbers are not those of one more seed.
-fn of_this_run(compared: &[Comparison], differences: &[String]) -> String {
+/// Whether this run is in the paper's set-up, how many of its numbers are not those of one more seed, and the
+/// numbers.
+fn of_this_run(compared: &[Comparison], differences: &[String]) -> anyhow::Result<String> {
+    let set_up = match differences {
+        [] => "This run is in the paper's set-up.".to_string(),
+        [one] => format!("This run is not in the paper's set-up: {one}."),
+        _ => format!("This run is not in the paper's set-up:\n  {}.", differences.join("\n  ")),
+    };
+    if compared.iter().all(|row| row.ours.is_none()) {
+        return Ok(format!("{set_up}\nIt has no fits that can be compared with the paper's."));
+    }
     let z: Vec<f64> = compared.iter().filter_map(|row| row.ours_z).collect();
     let far = z.iter().filter(|z| z.abs() >= FAR).count();
-    let set_up = match differences {
-        [] => "in the paper's set-up".to_string(),
-        _ => format!("not in the paper's set-up ({})", differences.join("; ")),
+    let count = match z.len() {
+        0 => String::new(),
+        numbers => format!("\n{FAR} or more standard deviations from the seeds: {far} of {numbers} numbers."),
     };
-    let numbers = z.len();
-    format!(
-        "This run is {set_up}. {FAR} or more standard deviations from the seeds: {far} of {numbers} numbers."
-    )
+    let heads = ["suite", "structure", "plane", "ln a", "b1", "b2", "R2", "T2", "p"].map(str::to_string);
+    let planes: Vec<_> = [heads].into_iter().chain(table_two(compared)).map(Vec::from).collect();
+    let numbers = rows::batch(compared.iter().filter(|row| row.plane.is_none()))?;
+    let columns = "quantity suite structure published mean z p ours ours_z".split(' ');
+    Ok(format!(
+        "{set_up}{count}\n\nplanes of Table II: published / mean of seeds / this run (its z from {FAR} on)\n\
+         {}\nother numbers\n{}",
+        aligned(&planes, |column| column > 2),
+        frame::text(&frame::from_batch(&numbers)?.select(columns)?),
+    ))
 }
 
-/// Which of the paper's structures have no fits.
+/// What the fits have in place of the paper's structures.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let is_fitted = |(Structure { name, p_rad_s, alpha_rad, eta, .. }, other): &(Structure, f64)| {
-        let mut its = demand.iter().filter(|fit| fit.structure == *name);
-        its.any(|fit| {
-            (fit.p_rad_s, fit.eta) == (*p_rad_s, *eta) && [*alpha_rad, *other].contains(&fit.alpha_rad)
-        })
+    let fitted = |of: &DemandFit| [of.p_rad_s, of.alpha_rad, of.eta];
+    let difference = |Structure { name, p_rad_s, alpha_rad, eta, .. }: Structure| {
+        let papers = [p_rad_s, alpha_rad, eta];
+        if demand.iter().any(|fit| fitted(fit) == papers) {
+            return None;
+        }
+        let Some(named) = demand.iter().find(|fit| fit.structure == name) else {
+            return Some(format!("no fits of its {name}"));
+        };
+        let printed =
+            |value: f64| if OTHER_ALPHA.contains(&value) { " (also printed in the paper)" } else { "" };
+        let others = fitted(named).into_iter().zip(papers).zip(["p", "alpha", "eta"]);
+        let others = others
+            .filter(|((value, papers), _)| value != papers)
+            .map(|((value, papers), of)| format!("{of} {value}{}, not {papers}", printed(value)));
+        Some(format!("{name}: {}", others.collect::<Vec<_>>().join("; ")))
     };
-    let others = paper::structures().into_iter().zip(OTHER_ALPHA).filter(|structure| !is_fitted(structure));
-    others.map(|(structure, _)| format!("no fits of its {}", structure.name)).collect()
+    paper::structures().into_iter().filter_map(difference).collect()
 }
 
 /// The stages of the paper, whose defaults are its set-up.
 const STAGES: [&str; 5] = ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"];
 /// Options that do not change what is compared.
-const NEUTRAL: [&str; 10] =
-    ["all", "housner", "in", "motions", "partition", "sa", "seed", "structure", "structures", "trace"];
+const NEUTRAL: [&str; 12] = [
+    "all",
+    "confidence",
+    "housner",
+    "in",
+    "motions",
+    "pairs",
+    "partition",
+    "sa",
+    "seed",
+    "structure",
+    "structures",
+    "trace",
+];
 /// Options that may have more than the paper's.
-const LISTS: [&str; 3] = ["limit-state", "pairs", "suite"];
+const LISTS: [&str; 2] = ["limit-state", "suite"];
 
 /// What options of the fits, and of the stages before, are not the paper's.
 fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
@@ -119,7 +156,8 @@ fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
             let flags: BTreeSet<&String> = stated.keys().chain(paper.keys()).collect();
             for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
                 let [now, then] = [stated.get(flag).cloned(), paper.get(flag).map(text_of)]
-                    .map(|text| text.unwrap_or("none".into()));
+                    .map(|text| text.unwrap_or("none".into()))
+                    .map(|text| text.replace(".0,", ",").trim_end_matches(".0").to_string());
                 let has =
                     |one: &str| LISTS.contains(&flag.as_str()) && now.split(',').any(|other| other == one);
                 let difference = format!("{stage} --{flag} {now}, not {then}");

@@ -104,6 +104,7 @@ fn what_is_read_beside_the_fits_is_what_is_needed() {
     let printed = succeed(folder.path(), call).0;
     let named = ["sample-scenarios --samples 10, not 100", "synthesize-motions --dt 0.01, not 0.005"];
     assert!(named.iter().all(|named| printed.contains(named)), "{printed}");
+    assert!(!printed.contains("standard deviations from the seeds"), "fewer scenarios spread more");
     // Fits that the model does not read need not be there.
     let _ = ["pro.parquet", "pex.parquet"].map(|name| fs::remove_file(out(name)).unwrap());
     let call = "evaluate --fits out --suite csgm --name frame --pga 0.4 --pgv 0.5";

@@ -9,6 +9,7 @@ use rockfrag::document::{Document, Table, compare, response};
 use rockfrag::figures::common::{estimate, observed_shares, ratio_bins};
 use rockfrag::figures::{planes, universality};
 use rockfrag::number;
+use rockfrag_core::fragility::{Event, Measure, beta, fit_curve};
 use rockfrag_core::paper;
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
@@ -71,13 +72,16 @@ fn cases_on_the_planes_are_seen_on_two_lines() {
 }
 
 /// Structures whose p grow by a tenth and that overturn at the same IM4 and IM3: over PGV the sd of ln theta
-/// is that of ln p, over dimensionless measures 0.
+/// is that of ln p, over dimensionless measures 0; beta is that of one.
 #[test]
 fn curves_that_are_universal_have_one_median() {
     let groups: Vec<_> = (0..10).map(|k| cases((0.1 * f64::from(k)).exp(), 200)).collect();
     let figure = universality(&groups);
     let titles: Vec<&str> = figure.panels.iter().map(|panel| panel.title.as_str()).collect();
-    assert_eq!(titles, ["0.30", "0.00", "0.00"].map(|sd| format!("csgm: sd of ln *θ* {sd}")));
+    let curve = fit_curve(&cases(1.0, 200), Event::Overturning, Measure::Im5, None);
+    let of_pgv = (55.0_f64 / 6.0).sqrt() * 0.1 / beta(&curve.coefficients).value;
+    let ratios = [of_pgv, 0.0, 0.0].map(|ratio| format!("combined motions, 10 of 10: sd / *β* {ratio:.2}"));
+    assert_eq!(titles, ratios);
     assert!(universality(&groups[1..]).panels.is_empty(), "nine structures are few");
 }
 

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Group, Measure};
+use crate::fragility::{CurveFit, DemandFit, DemandModel, Event, Measure};
 use crate::fragility::{beta, hybrid_measure, lambda, mu, p_overturning};
-use crate::paper::{Published, READINGS, SeedValue, example, published, seed_values};
+use crate::motion::Suite;
+use crate::paper::{Published, READINGS, SeedValue, example, published, seed_values, structures};
 use crate::rocking::Structure;
 use crate::statistics::distributions::f_upper_tail;
 
@@ -54,8 +55,9 @@ pub struct Distance {
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let (numbers, seeds) = (published(), seed_values());
     let compared = numbers.iter().map(|number| {
-        let group = Group { suite: Some(&number.suite), structure: &number.structure };
-        let ours = GroupFits { group, demand, curves }.value(&number.quantity);
+        let ours = structure_of(number).and_then(|structure| {
+            GroupFits { suite: &number.suite, structure, demand, curves }.value(number)
+        });
         let tested = numbers.iter().filter(|other| number.is_tested_with(other)).collect::<Vec<_>>();
         let (alone, together) = (of_seeds(&[number], &seeds), of_seeds(&tested, &seeds));
         let printed: Vec<f64> = tested.iter().map(|other| other.published).collect();
@@ -73,19 +75,28 @@ pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     compared.collect()
 }
 
-/// How many of the paper's planes and of its other numbers could be those of one more of our seeds.
+/// How many of the paper's planes and of its other numbers could be those of one more of our seeds. What it
+/// only implies is no number of its.
 pub fn verdict(compared: &[Comparison]) -> String {
-    let agree = |is_one: fn(&&Comparison) -> bool| {
-        let its = compared.iter().filter(is_one);
-        [its.clone().filter(|row| row.test.p >= LEVEL).count(), its.count()]
+    let agree = |is_one: &dyn Fn(&Comparison) -> bool| {
+        let its = || compared.iter().filter(|row| is_one(row));
+        (its().filter(|row| row.test.p >= LEVEL).count(), its().count())
     };
-    let [planes, all_planes] = agree(|row| row.quantity.ends_with("_b1"));
-    let [others, all_others] = agree(|row| row.plane.is_none());
-    let chosen = if READINGS > 1 { format!(" (reading chosen among {READINGS})") } else { String::new() };
+    let is_plane = |row: &Comparison| row.quantity.ends_with("_b1");
+    let of = |suite: Suite| agree(&|row| is_plane(row) && row.suite == <&str>::from(suite));
+    let (planes, all_planes) = agree(&is_plane);
+    let ((pulse, all_pulse), (csgm, all_csgm)) = (of(Suite::Pulse), of(Suite::Csgm));
+    let (others, all_others) = agree(&|row| row.plane.is_none() && !row.quantity.starts_with("implied"));
     format!(
-        "{planes} of the paper's {all_planes} planes and {others} of its {all_others} other numbers agree \
-         with twenty seeds of rockfrag (p > {LEVEL}){chosen}."
+        "{planes} of the paper's {all_planes} planes ({pulse} of {all_pulse} under pulses, {csgm} of \
+         {all_csgm} combined) and {others} of {all_others} numbers agree with twenty seeds of \
+         rockfrag (p > {LEVEL}; reading chosen among {READINGS})."
     )
+}
+
+/// The structure of a published number.
+fn structure_of(number: &Published) -> Option<Structure> {
+    structures().into_iter().find(|structure| structure.name == number.structure)
 }
 
 /// Our values of k numbers, of each seed that has all.
@@ -116,22 +127,24 @@ pub fn hotelling(sample: &[Vec<f64>], one_more: &[f64], variances: &[f64]) -> Op
     Some(Distance { t2, p: f_upper_tail(t2 * (n - k) / (k * (n - 1.0)), k, n - k) })
 }
 
-/// All fits, and the suite and structure whose fits are looked up.
+/// All fits, and the suite and structure of the paper whose fits are looked up, whatever their name.
 struct GroupFits<'a> {
-    group: Group<'a>,
+    suite: &'a str,
+    structure: Structure,
     demand: &'a [DemandFit],
     curves: &'a [CurveFit],
 }
 
 impl GroupFits<'_> {
     /// Our value of a published quantity; none where no fit gives it.
-    fn value(&self, quantity: &str) -> Option<f64> {
+    fn value(&self, number: &Published) -> Option<f64> {
         // The example takes the curve of the equipment for both structures.
-        let equipment = || self.hybrid("electrical-equipment").map(|curve| &curve.coefficients);
-        match quantity {
+        let [_, equipment] = &structures()[..] else { return None };
+        let equipment = || self.hybrid(equipment).map(|curve| &curve.coefficients);
+        match number.quantity.as_str() {
             "transition" => self.plane("above")?.transition_found,
             "r2_pooled" => self.plane("above")?.r2_pooled,
-            "hybrid_lambda" => Some(lambda(&self.hybrid(self.group.structure)?.coefficients).value),
+            "implied_lambda" => Some(lambda(&self.hybrid(&self.structure)?.coefficients).value),
             "im5_theta" => Some(mu(&self.im5()?.coefficients).value.exp()),
             "im5_beta" => Some(beta(&self.im5()?.coefficients).value),
             "example_hybrid" => self.example_hybrid(lambda(equipment()?).value),
@@ -150,33 +163,36 @@ impl GroupFits<'_> {
         }
     }
 
+    /// Whether a fit of this suite, p, alpha and eta is of a structure.
+    fn is_of(&self, of: &Structure, suite: &Option<String>, parameters: [f64; 3]) -> bool {
+        suite.as_deref() == Some(self.suite) && parameters == [of.p_rad_s, of.alpha_rad, of.eta]
+    }
+
     fn plane(&self, side: &str) -> Option<&DemandFit> {
         let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
         let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "below"));
-        on_side.find(|fit| fit.group() == self.group)
+        on_side.find(|fit| self.is_of(&self.structure, &fit.suite, [fit.p_rad_s, fit.alpha_rad, fit.eta]))
     }
 
     fn im5(&self) -> Option<&CurveFit> {
-        self.curve(self.group.structure, Measure::Im5, None)
+        self.curve(&self.structure, Measure::Im5, None)
     }
 
-    fn hybrid(&self, structure: &str) -> Option<&CurveFit> {
+    fn hybrid(&self, structure: &Structure) -> Option<&CurveFit> {
         self.curve(structure, Measure::Im4, Some(Measure::Im3Inverse))
     }
 
-    fn curve(&self, structure: &str, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
+    fn curve(&self, of: &Structure, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
         let mut fitted = self.curves.iter().filter(|fit| !fit.coefficients.is_empty());
         fitted.find(|fit| {
-            fit.group() == Group { structure, ..self.group }
+            self.is_of(of, &fit.suite, [fit.p_rad_s, fit.alpha_rad, fit.eta])
                 && (fit.event, &fit.im_x, &fit.im_y) == (Event::Overturning, &im_x, &im_y)
         })
     }
 
     /// The hybrid measure of the worked example, of the motion as it meets the structure.
     fn example_hybrid(&self, lambda: f64) -> Option<f64> {
-        let fit = self.curves.iter().find(|fit| fit.group() == self.group)?;
-        let structure = Structure::new(&fit.structure, fit.p_rad_s, fit.alpha_rad, fit.eta).ok()?;
-        let measures = example(&structure);
+        let measures = example(&self.structure);
         Some(hybrid_measure(measures.im4, 1.0 / measures.im3?, lambda))
     }
 }

@@ -106,7 +106,7 @@ fn the_verdict_is_the_sentence_of_the_docs() {
 #[test]
 fn ours_are_found_in_the_fits() {
     let mut cases = rocking(1200);
-    cases.structure.name = "electrical-equipment".to_string();
+    cases.structure.name = "trafo".to_string();
     let planes = fit_demand(&cases, Some(1.3), &[0.1], &[], false);
     let curves = [(Measure::Im4, Some(Measure::Im3Inverse)), (Measure::Im5, None)]
         .map(|(x, y)| fit_curve(&cases, Event::Overturning, x, y));
@@ -123,7 +123,7 @@ fn ours_are_found_in_the_fits() {
     close(equipment("r2_pooled"), planes[0].r2_pooled.unwrap(), 1e-15);
     close(equipment("transition"), planes[0].transition_found.unwrap(), 1e-15);
     let b = &curves[0].coefficients;
-    close(equipment("hybrid_lambda"), b[1] / b[2], 1e-15);
+    close(equipment("implied_lambda"), b[1] / b[2], 1e-15);
     let structure = Structure::new("", 2.5, 0.2, 0.92).unwrap();
     let p = curves[0].probability(&example(&structure), 0.95).unwrap().value;
     close(equipment("example_p_ro"), p, 1e-10);

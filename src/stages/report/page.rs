@@ -1,8 +1,7 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
-use rockfrag_core::motion::Suite;
-use rockfrag_core::paper::{self, Claim};
+use rockfrag_core::paper::{self, Claim, Support};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -16,7 +15,7 @@ use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
-use crate::figures::common::{by, called, name, rocked, scaled_label, short_label};
+use crate::figures::common::{by, called, name, order, rocked, scaled_label, short_label, title};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
@@ -101,11 +100,10 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let mut groups: Vec<&Cases> = rocking.collect();
     let rest = groups.split_off(groups.len().min(MOST_GROUPS));
     if !rest.is_empty() {
-        let names = rest.into_iter().map(name).collect::<Vec<_>>().join(", ");
+        let names = rest.into_iter().map(name).collect::<Vec<_>>().join("; ");
         tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
     }
-    let suite = |cases: &&Cases| cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
-    groups.sort_by_key(|cases| suite(cases).map_or(usize::MAX, |suite| suite as usize));
+    groups.sort_by_key(|cases| order(cases));
     let (motions, fits) = (tables.motions()?, &tables.fits);
     let stripes = tables.rows(Kind::Stripes)?;
     let mut figures = vec![ida(&tables.rows(Kind::CapacityFits)?, &tables.rows(Kind::Capacities)?, &stripes)];
@@ -119,8 +117,12 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
         motion(&motions),
         similarity(&tables.groups, &motions).unwrap_or_default(),
     ]);
-    figures.extend(draw(&[planes, exceedance, overturning, quality, |_, groups| demand(groups)]));
-    figures.extend(groups.iter().map(|cases| regressions(fits, cases)));
+    // As the demand was fitted: smaller rotations are raised to the floor.
+    let mut fitted: Vec<Cases> = groups.iter().copied().cloned().collect();
+    fitted.iter_mut().for_each(|cases| cases.raise_rotations(fits.rotation_floor));
+    figures.extend(by_structure(&fitted.iter().collect::<Vec<_>>(), |groups| planes(fits, groups)));
+    figures.extend(draw(&[exceedance, overturning, quality, |_, groups| demand(groups)]));
+    figures.extend(fitted.iter().map(|cases| regressions(fits, cases)));
     figures.retain(|figure| !figure.panels.is_empty());
     Ok(figures)
 }
@@ -157,9 +159,10 @@ fn head(tables: &Tables) -> Document {
         None if !compared.is_empty() => Document {
             title: "The paper's fragility curves beside those of this run".to_string(),
             place: "Dimitrakopoulos & Paraskeva (2015)".to_string(),
-            lead: tables
-                .made_by("compare-paper")
-                .map_or(Vec::new(), |made| made.summary.lines().take(2).map(literal).collect()),
+            lead: tables.made_by("compare-paper").map_or(Vec::new(), |made| {
+                let sentences = made.summary.split("\n\n").take(1);
+                sentences.map(|text| literal(&text.replace(":\n", ": ").replace("\n  ", "; "))).collect()
+            }),
             tables: vec![published_planes(compared)],
             ..Document::default()
         },
@@ -301,11 +304,15 @@ fn claims(tables: &Tables) -> Vec<Table> {
     let shown = |row: &Claim| {
         let [mean, low, high] =
             [row.mean, row.low, row.high].map(|value| minus(number::significant(value, 3)));
-        let mark = if row.supports == Some(false) { " \u{2717}" } else { "" };
+        let mark = match row.support {
+            Some(Support::Undecided) => " ?",
+            Some(Support::Against) => " \u{2717}",
+            Some(Support::For) | None => "",
+        };
         format!("{mean} ({low} to {high}){mark}")
     };
     let of_claim = |rows: Vec<&Claim>| {
-        let column = |row: &Claim| literal(&format!("{}, {}", row.structure, row.suite));
+        let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
         let columns = by(rows.iter().copied(), column).into_iter().map(|its| column(its[0]));
         let heads: Vec<String> =
             ["number", "claimed"].map(str::to_string).into_iter().chain(columns).collect();
@@ -320,8 +327,8 @@ fn claims(tables: &Tables) -> Vec<Table> {
         let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
         let Claim { claim, verdict, figure, .. } = rows[0];
         let caption = format!(
-            "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more; those \
-             with \u{2717} do not support the claim."
+            "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more seed; \
+             by those of the mean, ? is undecided and \u{2717} against the claim."
         );
         Table { caption, heads, rows: lines, ..Table::default() }
     };

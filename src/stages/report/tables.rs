@@ -146,20 +146,24 @@ impl Tables {
         let calibrations: Vec<Calibration> = tables.rows(Kind::Calibrations)?;
         let (exceeding, calibrations): (Vec<_>, Vec<_>) =
             calibrations.into_iter().partition(|row| row.limit_state.is_some());
+        let fit_pex = tables.made_by("fit-pex");
+        let floor = fit_pex.and_then(|made| made.arguments.get("rotation-floor")?.as_f64());
         tables.fits = Fits {
             demand: tables.rows(Kind::Planes)?,
             curves: tables.rows(Kind::Curves)?,
             calibrations,
             limit_state: exceeding.first().and_then(|row| row.limit_state).unwrap_or(paper::LIMIT_STATE),
+            rotation_floor: floor.unwrap_or_default(),
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
         let groups =
             tables.of(Kind::Responses).map(|item| responses::read(&item.path, &tables.columns(item)?));
         tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
-        if tables.groups.len() > 2 {
+        tables.compared = tables.rows(Kind::Paper)?;
+        // The paper has the frame first.
+        if tables.groups.len() > 2 && tables.compared.is_empty() {
             tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
         }
-        tables.compared = tables.rows(Kind::Paper)?;
         for item in &tables.items {
             match item.kind {
                 Kind::Answers => {
