@@ -11,7 +11,7 @@ use super::decode::decode;
 use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
 use super::heading::{Heading, number_with_unit};
 use super::layout::{Layout, RawRow, RowRole, layout};
-use super::numbers::{self, DecimalNotation, Evidence, is_missing, is_number};
+use super::numbers::{self, Evidence, Notation, is_missing, is_number};
 use super::reading::{ColumnReading, Meaning, Reading};
 use super::separated;
 use super::unpack::unpack_one;
@@ -36,7 +36,7 @@ pub struct Grid {
     /// Line of each row in the file, from 1.
     pub lines: Vec<usize>,
     rows: Vec<StringRecord>,
-    notations: Vec<DecimalNotation>,
+    notations: Vec<Notation>,
     /// Columns that the user leaves out.
     ignored: Vec<ColumnReading>,
     /// Lines and columns of cells that a merged one repeats.

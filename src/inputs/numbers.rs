@@ -1,5 +1,4 @@
-//! Numbers of a table: whether points and commas are decimal or stand between thousands, settled once from
-//! all cells of all columns.
+//! Numbers of a table: one sign, point or comma, is decimal in all of it; the other stands between thousands.
 
 use std::borrow::Cow;
 
@@ -10,35 +9,24 @@ use super::words::{normal, normal_number};
 /// What may be decimal or stand between thousands.
 const SIGNS: [char; 2] = ['.', ','];
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Sign {
-    Decimal,
-    Thousands,
-    /// Nothing in the table tells.
-    Unclear,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct DecimalNotation {
-    /// Of points and of commas.
-    signs: [Sign; 2],
+/// How the numbers of a column are written.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Notation {
+    /// None where nothing in the table tells.
+    decimal: Option<char>,
     /// Whether numbers below a percent sign may be percent, or shares that a workbook shows as percent.
     pub may_be_shares: bool,
 }
 
-/// What cells show of a sign: that it is decimal, between thousands, or that it may be either.
-#[derive(Debug, Clone, Copy, Default)]
-struct Seen {
-    decimal: bool,
-    thousands: bool,
-    either: bool,
-}
-
-/// What the cells of a column show.
-#[derive(Debug, Clone, Copy, Default)]
+/// What the numbers of a column show, if points are decimal and if commas are.
+#[derive(Debug, Clone, Copy)]
 pub struct Evidence {
-    /// Of points and of commas.
-    signs: [Seen; 2],
+    /// Whether all can be read so.
+    all: [bool; 2],
+    /// Whether one can be read so alone.
+    decides: [bool; 2],
+    /// Whether one with this sign can be read in both ways: 1,029.
+    either: [bool; 2],
     /// A number from 100 to 999 without signs.
     hundreds: bool,
     /// One of four digits or more: thousands are not parted.
@@ -54,117 +42,99 @@ pub fn is_missing(cell: &str) -> bool {
     MISSING.contains(&normal(cell.trim()).to_lowercase().as_str())
 }
 
-/// The number in a cell if points are decimal, and if commas are.
-fn by_country(cell: &str) -> [Option<f64>; 2] {
-    use Sign::{Decimal, Thousands};
-    [[Decimal, Thousands], [Thousands, Decimal]]
-        .map(|signs| DecimalNotation { signs, may_be_shares: false }.number(cell))
-}
-
 /// Whether a cell is a number in some country.
 pub fn is_number(cell: &str) -> bool {
-    by_country(cell).iter().any(Option::is_some)
+    SIGNS.iter().any(|decimal| read(cell, *decimal).is_some())
+}
+
+impl Evidence {
+    pub fn under(heading: &Heading) -> Evidence {
+        let has_percent = heading.is_percent || heading.unit.is_some_and(|unit| unit.name.contains('%'));
+        let none = [false; 2];
+        let (all, hundreds, unparted) = ([true; 2], false, false);
+        Evidence { all, decides: none, either: none, hundreds, unparted, has_percent, largest: 0.0 }
+    }
+
+    pub fn add(&mut self, cell: &str) {
+        let can_be = SIGNS.map(|decimal| read(cell, decimal).is_some());
+        if can_be == [false; 2] {
+            return;
+        }
+        let cell = &*normal(cell);
+        let has = SIGNS.map(|sign| cell.contains(sign));
+        for (at, sign) in has.into_iter().enumerate() {
+            self.all[at] &= can_be[at];
+            self.decides[at] |= !can_be[1 - at];
+            self.either[at] |= sign && can_be == [true; 2];
+        }
+        if has == [false; 2] {
+            let digits = share(cell).0.trim_start_matches(['+', '-']);
+            let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
+            self.hundreds |= digits.len() == 3;
+            self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
+        }
+        self.has_percent |= cell.ends_with('%');
+        self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
+    }
+}
+
+/// Settles how each column is written: in the way in which all of the table can be read, in a workbook all of the
+/// column.
+pub fn notations(columns: &[Evidence], source: Source) -> Vec<Notation> {
+    let all = [0, 1].map(|at| columns.iter().all(|column| column.all[at]));
+    // 1,029 beside 999 is of a country of decimal points.
+    let has_points = columns.iter().any(|column| column.either[1] && column.hundreds);
+    let is_workbook = matches!(source, Source::Xlsx | Source::Workbook);
+    let decimal = |own: &Evidence| match if is_workbook || all == [false; 2] { own.all } else { all } {
+        [true, true] if own.either[1] && !has_points => None,
+        [false, false] => None,
+        [true, _] if is_workbook => Some(0),
+        [points, _] => Some(usize::from(!points)).filter(|at| {
+            // 1.029 beside 999 may be either; beside 0.999, or 1500, it is not.
+            !own.either[*at] || own.decides[*at] || own.unparted || !own.hundreds
+        }),
+    };
+    let notation = |own: &Evidence| Notation {
+        decimal: decimal(own).map(|at| SIGNS[at]),
+        may_be_shares: source == Source::Workbook
+            && own.has_percent
+            && own.largest > 0.0
+            && own.largest <= 1.0,
+    };
+    columns.iter().map(notation).collect()
+}
+
+impl Notation {
+    /// Reads a number; 10 % is 0.1.
+    pub fn number(self, cell: &str) -> Option<f64> {
+        let plain = || Some(SIGNS[0]).filter(|_| !cell.contains(SIGNS));
+        read(cell, self.decimal.or_else(plain)?)
+    }
+
+    /// Whether a cell is a number but for a sign that may be decimal or not.
+    pub fn is_unclear(self, cell: &str) -> bool {
+        self.number(cell).is_none() && self.decimal.is_none() && is_number(cell)
+    }
 }
 
 fn share(cell: &str) -> (&str, f64) {
     cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01))
 }
 
-impl Evidence {
-    pub fn under(heading: &Heading) -> Evidence {
-        let has_percent = heading.is_percent || heading.unit.is_some_and(|unit| unit.name.contains('%'));
-        Evidence { has_percent, ..Evidence::default() }
-    }
-
-    pub fn add(&mut self, cell: &str) {
-        let by_country = by_country(cell);
-        if by_country == [None; 2] {
-            return;
-        }
-        let cell = &*normal(cell);
-        self.has_percent |= cell.ends_with('%');
-        self.largest = self.largest.max(plain_number(cell).unwrap_or(0.0));
-        let [has_point, has_comma] = SIGNS.map(|sign| cell.contains(sign));
-        let [point, comma] = &mut self.signs;
-        match by_country {
-            [Some(_), None] => {
-                point.decimal |= has_point;
-                comma.thousands |= has_comma;
-            }
-            [None, _] => {
-                comma.decimal |= has_comma;
-                point.thousands |= has_point;
-            }
-            _ if has_point => point.either = true,
-            _ if has_comma => comma.either = true,
-            _ => {
-                let digits = share(cell).0.trim_start_matches(['+', '-']);
-                let digits = digits.split(['e', 'E', 'd', 'D']).next().unwrap_or_default();
-                self.hundreds |= digits.len() == 3;
-                self.unparted |= digits.len() > 3 && digits.bytes().all(|digit| digit.is_ascii_digit());
-            }
+/// Reads a number with this decimal sign.
+fn read(cell: &str, decimal: char) -> Option<f64> {
+    let cell = normal_number(cell)?;
+    let (text, size) = share(&cell);
+    let mut text = Cow::Borrowed(text);
+    for sign in ['.', ',', '\'', ' '].into_iter().filter(|sign| *sign != decimal) {
+        if text.contains(sign) {
+            text = without(&text, sign)?.into();
         }
     }
-
-    /// What a sign is in this column, by its cells, else by those of others.
-    fn sign(&self, at: usize, all: &[Seen; 2]) -> Sign {
-        let own = self.signs[at];
-        match (all[at].decimal, all[at].thousands || all[1 - at].decimal) {
-            _ if own.decimal || !(own.either || own.thousands) => Sign::Decimal,
-            _ if own.thousands => Sign::Thousands,
-            _ if self.unparted => Sign::Decimal,
-            (true, false) if !self.hundreds => Sign::Decimal,
-            (false, true) => Sign::Thousands,
-            (false, false) if at == 0 && !self.hundreds => Sign::Decimal,
-            // 1,029 beside 999 is of a country of decimal points.
-            (false, false) if at == 1 && all[at].either => Sign::Thousands,
-            _ => Sign::Unclear,
-        }
+    if decimal == ',' {
+        text = text.replacen(',', ".", 1).into();
     }
-}
-
-/// Settles how each column is written. In a workbook points are decimal.
-pub fn notations(columns: &[Evidence], source: Source) -> Vec<DecimalNotation> {
-    let is_workbook = matches!(source, Source::Xlsx | Source::Workbook);
-    let all = [0, 1].map(|at| Seen {
-        decimal: columns.iter().any(|column| column.signs[at].decimal),
-        thousands: columns.iter().any(|column| column.signs[at].thousands),
-        either: columns.iter().any(|column| column.signs[at].either && column.hundreds),
-    });
-    let notations = columns.iter().map(|own| DecimalNotation {
-        signs: [if is_workbook { Sign::Decimal } else { own.sign(0, &all) }, own.sign(1, &all)],
-        may_be_shares: source == Source::Workbook
-            && own.has_percent
-            && own.largest > 0.0
-            && own.largest <= 1.0,
-    });
-    notations.collect()
-}
-
-impl DecimalNotation {
-    /// Reads a number; 10 % is 0.1.
-    pub fn number(self, cell: &str) -> Option<f64> {
-        let cell = normal_number(cell)?;
-        let (text, size) = share(&cell);
-        let mut text = Cow::Borrowed(text);
-        let others = [('\'', Sign::Thousands), (' ', Sign::Thousands)];
-        for (sign, known) in SIGNS.into_iter().zip(self.signs).chain(others) {
-            match known {
-                _ if !text.contains(sign) => {}
-                Sign::Thousands => text = without(&text, sign)?.into(),
-                Sign::Decimal if sign == ',' => text = text.replacen(sign, ".", 1).into(),
-                Sign::Decimal => {}
-                Sign::Unclear => return None,
-            }
-        }
-        plain_number(&text).map(|value| size * value)
-    }
-
-    /// Whether a cell is a number but for a sign that may be decimal or not.
-    pub fn is_unclear(self, cell: &str) -> bool {
-        let mut signs = SIGNS.into_iter().zip(self.signs);
-        signs.any(|(sign, known)| known == Sign::Unclear && cell.contains(sign)) && is_number(cell)
-    }
+    plain_number(&text).map(|value| size * value)
 }
 
 /// Removes a sign between thousands; none where it stands elsewhere.
