@@ -10,7 +10,7 @@ use rockfrag_core::units::Quantity;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::hazard::{expect_understood, peak};
-use super::objects::describes_object;
+use super::roles::describes_object;
 use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::table::dictionary;

@@ -12,6 +12,7 @@
 //! reader       headings that the user names or leaves out
 //! reading      how a file was read
 //! hazard       the hazard of a site
+//! roles        what the columns of a list say
 //! objects      lists of objects
 //! intensities  tables of motions by their peaks
 //! about        tables about records
@@ -35,6 +36,7 @@ pub mod objects;
 mod reader;
 mod reading;
 pub mod records;
+mod roles;
 mod separated;
 mod unpack;
 pub mod words;
@@ -49,4 +51,5 @@ pub use heading::Heading;
 pub use numbers::plain_number;
 pub use reader::{Reader, Rename};
 pub use reading::{ColumnReading, Meaning, Reading};
+pub use roles::is_of_list;
 pub use unpack::{Member, unpack};

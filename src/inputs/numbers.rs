@@ -105,10 +105,16 @@ pub fn notations(columns: &[Evidence], source: Source) -> Vec<Notation> {
 }
 
 impl Notation {
-    /// Reads a number; 10 % is 0.1.
+    /// Reads a number; 10 % is 0.1. Where nothing else tells, a cell may still be a number in one way alone.
     pub fn number(self, cell: &str) -> Option<f64> {
-        let plain = || Some(SIGNS[0]).filter(|_| !cell.contains(SIGNS));
-        read(cell, self.decimal.or_else(plain)?)
+        let both = || SIGNS.map(|decimal| read(cell, decimal));
+        self.decimal.map_or_else(
+            || match both() {
+                [Some(one), Some(other)] if one != other => None,
+                [one, other] => one.or(other),
+            },
+            |decimal| read(cell, decimal),
+        )
     }
 
     /// Whether a cell is a number but for a sign that may be decimal or not.

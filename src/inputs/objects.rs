@@ -7,48 +7,16 @@ use rockfrag_core::object::{Field, Object, ObjectError, Place, Wall};
 use rockfrag_core::plausibility::validate_lengths;
 use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
-use strum::VariantArray;
 
 use super::floors::{self, Building, Storey};
 use super::numbers::is_missing;
-use super::words::{is_one_of, joined, means, normal, synonyms};
+use super::roles::{Role, meaning};
+use super::words::{joined, means, normal, synonyms};
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
-/// What a column of a list says.
-#[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
-#[strum(serialize_all = "lowercase")]
-enum Role {
-    Name,
-    #[strum(to_string = "{0}")]
-    Known(Field),
-    /// Of a round base.
-    Diameter,
-    Count,
-    /// A number that counts objects or names them.
-    Number,
-    /// The unit of lengths.
-    Unit,
-    /// Known, and not needed.
-    Mass,
-    /// What holds an object.
-    Held,
-    /// The floor that it stands on.
-    Storey,
-    /// The number of storeys of its building.
-    Storeys,
-    Building,
-    /// A property of the object that is not understood: without it the object has no answer.
-    Unclear,
-    /// What befell the object.
-    Other,
-    /// Texts of the list's own.
-    Kept,
-    NotUnderstood,
-}
-
-/// Floors beyond this number are levels in percent, or something else.
-const HIGHEST_FLOOR: f64 = 50.0;
+/// Without one of these, in a cell that is not empty, there is no object.
+const NEEDED: [Field; 4] = [Field::Width, Field::Height, Field::P, Field::Alpha];
 
 /// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
@@ -91,76 +59,6 @@ pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings, 
     Ok((list.objects(), list.doubts(), list.meanings()))
 }
 
-/// Whether a heading is of a list: a size, or p.
-pub fn is_of_list(heading: &Heading) -> bool {
-    let sizes = [Field::Width, Field::Height, Field::P].map(Role::Known);
-    sizes.contains(&meaning(heading)) || meaning(heading) == Role::Diameter
-}
-
-/// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
-pub fn describes_object(heading: &Heading) -> bool {
-    match meaning(heading) {
-        // Of an earthquake or a station.
-        _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
-        Role::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
-        Role::Unclear => synonyms("of-objects").any(|part| heading.name.contains(part)),
-        column => matches!(column, Role::Storey | Role::Storeys),
-    }
-}
-
-/// What a heading says, parsed to its end: one with a word left over is not understood.
-fn meaning(heading: &Heading) -> Role {
-    let name = &*heading.name;
-    let words: Vec<&str> = name.split('-').filter(|word| !is_one_of(word, "of-sizes")).collect();
-    let (centres, others): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_one_of(word, "centre"));
-    let is_one_thing = |role: &Role| words.iter().all(|word| known(word).as_ref() == Some(role));
-    let quantity = heading.unit.map(|unit| unit.quantity);
-    let starts =
-        |meaning: &str| words.iter().any(|word| synonyms(meaning).any(|start| word.starts_with(start)));
-    if words.iter().any(|word| is_one_of(word, "count")) && known(name).is_none_or(|role| role == Role::Count)
-        || quantity == Some(Quantity::Counts)
-    {
-        Role::Count
-    } else if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
-        role
-    } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
-        // In two languages.
-        role
-    } else if !centres.is_empty() {
-        match known(&others.join("-")) {
-            Some(Role::Known(Field::Height)) => Role::Known(Field::CentreHeight),
-            Some(Role::Known(Field::CentreOffset)) => Role::Known(Field::CentreOffset),
-            _ => Role::Unclear,
-        }
-    } else if starts("holds") {
-        Role::Held
-    } else if name.is_empty() && heading.text == "#" {
-        Role::Number
-    } else if synonyms("of-objects").any(|part| name.contains(part)) || quantity == Some(Quantity::Length) {
-        // A length is perhaps another side of the base: without it the object would seem safer.
-        Role::Unclear
-    } else {
-        Role::NotUnderstood
-    }
-}
-
-/// The role of a heading in these words.
-fn known(name: &str) -> Option<Role> {
-    const OTHERS: [(&str, Role); 8] = [
-        ("diameter", Role::Diameter),
-        ("count", Role::Count),
-        ("number", Role::Number),
-        ("unit", Role::Unit),
-        ("mass", Role::Mass),
-        ("storey", Role::Storey),
-        ("storeys", Role::Storeys),
-        ("building", Role::Building),
-    ];
-    let fields = Field::VARIANTS.iter().map(|field| (field.into(), Role::Known(*field)));
-    let mut all = fields.chain(OTHERS).filter(|(meaning, _)| name == *meaning || is_one_of(name, meaning));
-    all.next().map(|(_, role)| role).filter(|_| !name.is_empty())
-}
-
 impl List<'_> {
     fn new<'a>(grid: &'a Grid, defaults: &ListDefaults) -> Result<List<'a>> {
         let mut columns: Vec<Role> = grid.headings.iter().map(meaning).collect();
@@ -170,18 +68,13 @@ impl List<'_> {
             let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
             units.any(|unit| unit.quantity == Quantity::Length)
         });
-        let is_of_floors = list.level_is_of_floors();
-        let has_storey = list.column(Role::Storey).is_some() || is_of_floors;
         for at in 0..list.columns.len() {
             let is_text = grid.is_text(at);
             list.columns[at] = match list.columns[at] {
-                Role::Known(Field::Level) if is_of_floors => Role::Storey,
                 Role::Number if is_text => Role::Kept,
                 Role::Number => list.count_or_name(at)?,
                 // A ward, perhaps.
                 Role::Unit if !has_units => Role::Kept,
-                // Without a floor, the building says nothing.
-                Role::Storeys | Role::Building if !has_storey => Role::Kept,
                 Role::NotUnderstood if is_text => Role::Kept,
                 role => role,
             };
@@ -211,16 +104,6 @@ impl List<'_> {
         }
     }
 
-    /// Whether levels are floors: shares of the height of a building do not exceed 1.
-    fn level_is_of_floors(&self) -> bool {
-        let level = self.column(Role::Known(Field::Level));
-        level.filter(|_| self.column(Role::Storey).is_none()).is_some_and(|at| {
-            let levels = || self.grid.rows().filter_map(|row| self.grid.number(row, at).ok());
-            levels().any(|level| level > 1.0)
-                && levels().all(|level| level.fract() == 0.0 && level < HIGHEST_FLOOR)
-        })
-    }
-
     /// Checks the headings, the lengths below each, and remarks on units.
     fn check(&self) -> Result<()> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
@@ -235,9 +118,7 @@ impl List<'_> {
         let remarks = grid.notes.iter().map(String::as_str).chain(self.beside());
         let remarked = remarks.filter_map(|note| Some((note, unit_of_remark(note)?))).next();
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
-            let text = heading.text.replace("(-)", "").replace("[-]", "");
-            let has_sign = text.contains(['(', '[', '%']) && is_one_of(&heading.name, &column.to_string());
-            if matches!(column, Role::Known(_)) && heading.unit.is_none() && has_sign {
+            if matches!(column, Role::Known(_)) && (heading.is_scaled || heading.is_percent) {
                 let found = format!("heading '{}'", heading.text);
                 return Err(InputError::unexpected(found, "m, cm or mm in brackets, or no unit"));
             }
@@ -366,10 +247,6 @@ impl List<'_> {
         }
     }
 
-    fn has(&self, row: usize, field: Field) -> bool {
-        self.cell(row, Role::Known(field)).is_some()
-    }
-
     /// Whether a row says on which floor its object stands.
     fn names_floor(&self, row: usize) -> bool {
         self.cell(row, Role::Storey).or(self.cell(row, Role::Known(Field::Level))).is_some()
@@ -379,45 +256,46 @@ impl List<'_> {
         let mut object = Object::default();
         for (at, column) in self.columns.iter().enumerate() {
             let cell = self.grid.cell(row, at);
-            let is_round = *column == Role::Known(Field::Width) && self.cell(row, Role::Diameter).is_some();
-            let is_needed = !is_round
-                && [Field::Width, Field::Height, Field::P, Field::Alpha].map(Role::Known).contains(column);
-            let (name, size) = match column {
-                _ if cell.is_empty() || self.grid.value(row, at).is_none() && !is_needed => continue,
+            let is_round = self.cell(row, Role::Diameter).is_some();
+            let fields: &[Field] = match column {
+                _ if cell.is_empty() => continue,
                 Role::Known(Field::Wall) if means(cell, "free") => continue,
                 Role::Known(Field::Wall) if means(cell, "yes") => {
                     object.place.wall = Some(Wall::Yes);
                     continue;
                 }
-                Role::Known(field) => (field.into(), self.size(row, at, *field)?),
-                Role::Diameter if [Field::Width, Field::Depth].iter().any(|side| self.has(row, *side)) => {
+                Role::Known(Field::Width | Field::Depth)
+                    if is_round && self.grid.value(row, at).is_some() =>
+                {
                     return Err("a diameter and a width or depth: which is that of its base?".to_string());
                 }
-                Role::Diameter => {
-                    let size = self.size(row, at, Field::Width)?;
-                    let number = self.grid.number(row, at).map_err(|error| error.to_string())?;
-                    let diameter = rounded(size * number).to_string();
-                    object.set(Field::Depth.into(), &diameter)?;
-                    object.set(Field::Width.into(), &diameter)?;
-                    continue;
-                }
+                Role::Known(field) => std::slice::from_ref(field),
+                Role::Diameter => &[Field::Width, Field::Depth],
                 Role::Count if self.grid.is_repeated(row, at) => {
                     return Err("a number in merged cells: write that of each object".to_string());
                 }
-                Role::Count => ("count", 1.0),
-                Role::Unclear => {
-                    let text = &self.grid.headings[at].text;
-                    return Err(format!(
-                        "column '{text}' is not understood: rename it (--columns) or leave it out (--ignore)"
-                    ));
+                Role::Count => &[],
+                Role::Unclear if self.grid.value(row, at).is_some() => {
+                    let heading = &self.grid.headings[at].text;
+                    let expected = "rename it (--columns) or leave it out (--ignore)";
+                    return Err(format!("column '{heading}' is not understood: {expected}"));
                 }
                 _ => continue,
             };
-            match self.grid.number(row, at) {
-                Ok(number) => object.set(name, &rounded(size * number).to_string())?,
+            let is_needed = |field: &Field| !is_round && NEEDED.contains(field);
+            if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
+                continue;
+            }
+            let size = fields.first().map_or(Ok(1.0), |field| self.size(row, at, *field))?;
+            let text = match self.grid.number(row, at) {
+                Ok(number) => rounded(size * number).to_string(),
                 // Other fields may be words, or know what is expected.
-                Err(InputError::Cell { .. }) if !is_needed => object.set(name, cell)?,
+                Err(InputError::Cell { .. }) if !fields.iter().any(is_needed) => cell.to_string(),
                 Err(error) => return Err(error.to_string()),
+            };
+            let names: Vec<&str> = fields.iter().map(|field| field.into()).collect();
+            for name in if names.is_empty() { vec!["count"] } else { names } {
+                object.set(name, &text)?;
             }
         }
         self.put_on_floor(row, &mut object)?;

@@ -10,7 +10,7 @@ use serde::Serialize;
 use super::Inspect;
 use crate::document::readings;
 use crate::inputs::records::{ReadOptions, read_records};
-use crate::inputs::{ColumnReading, Grid, Heading, InputError, Meaning, Reading};
+use crate::inputs::{ColumnReading, Grid, Heading, InputError, Meaning, Reading, is_of_list};
 use crate::inputs::{hazard, intensities, objects, unpack};
 use crate::number::{plain, rounded, significant, visible};
 use crate::source;
@@ -38,7 +38,7 @@ impl Kind {
         let is_any = |of: fn(&Heading) -> bool| grid.headings.iter().any(of);
         match () {
             () if is_any(hazard::is_of_hazard) => Kind::Hazard,
-            () if is_any(objects::is_of_list) => Kind::List,
+            () if is_any(is_of_list) => Kind::List,
             () if is_any(|heading| hazard::peak(heading).is_some()) && grid.has_headings => Kind::Intensities,
             () => Kind::Record,
         }
