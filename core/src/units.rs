@@ -37,6 +37,30 @@ impl serde::Serialize for Unit {
 
 use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Mass, Time, Velocity};
 
+const CENTIMETRES: &[&str] = &[
+    "centimetre",
+    "centimetres",
+    "centimeter",
+    "centimeters",
+    "zentimeter",
+    "zentimetern",
+    "centimetri",
+    "centímetros",
+    "centimètres",
+    "センチ",
+];
+const MILLIMETRES: &[&str] = &[
+    "millimetre",
+    "millimetres",
+    "millimeter",
+    "millimeters",
+    "millimetern",
+    "millimetri",
+    "milímetros",
+    "millimètres",
+    "ミリ",
+];
+
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
 const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
@@ -59,8 +83,8 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
     ("in/s", Velocity, 0.0254, &[]),
     ("ft/s", Velocity, 0.3048, &[]),
     ("m", Length, 1.0, &["metre", "metres", "meter", "meters"]),
-    ("cm", Length, 0.01, &["centimetre", "centimetres", "centimeter", "centimeters"]),
-    ("mm", Length, 0.001, &["millimetre", "millimetres", "millimeter", "millimeters"]),
+    ("cm", Length, 0.01, CENTIMETRES),
+    ("mm", Length, 0.001, MILLIMETRES),
     ("km", Length, 1000.0, &[]),
     ("in", Length, 0.0254, &["inch", "inches", "zoll", "\"", "''"]),
     ("ft", Length, 0.3048, &["foot", "feet", "'"]),

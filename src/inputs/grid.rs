@@ -274,6 +274,7 @@ impl Grid {
         Reading {
             file: path.display().to_string(),
             rows: self.lines.len(),
+            unread: Vec::new(),
             columns: columns.chain(self.ignored.iter().cloned()).collect(),
             others: [self.others.clone(), self.notes.iter().map(|note| format!("remark: {note}")).collect()]
                 .concat(),

@@ -23,7 +23,7 @@ pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>>
         let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
         let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
         expect_understood(&grid, &meanings)?;
-        reader.tell(path, &grid, meanings);
+        reader.tell(path, &grid, meanings, Vec::new());
         Ok(columns)
     });
     read.map_err(|error| error.in_file(path))

@@ -168,7 +168,10 @@ fn joined_rows(rows: &[RawRow], source: Source) -> Vec<Heading> {
         for (at, column) in columns.iter_mut().enumerate() {
             let cell = if row.is_comment { uncommented(row.get(at)) } else { row.get(at) };
             if !cell.is_empty() || !is_below(at) {
-                group = if source != Source::Xlsx && is_below(at) { cell } else { "" };
+                // A merged cell tells itself above which columns it stands.
+                let is_merged = source == Source::Xlsx
+                    && [at.wrapping_sub(1), at + 1].iter().any(|of| row.get(*of) == cell);
+                group = if is_below(at) && !is_merged { cell } else { "" };
             }
             column.push(if cell.is_empty() { group } else { cell });
         }
@@ -283,7 +286,7 @@ fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
         "" | "-" => Ok(heading.clone()),
         "a" | "[a]" | "(a)" => Ok(heading.with_unit("years").unwrap_or(heading.clone())),
         unit => heading
-            .with_unit(uncommented(unit))
+            .with_unit(if units.is_comment && at == 0 { uncommented(unit) } else { unit })
             .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() }),
     };
     headings.iter().enumerate().map(with_unit).collect()

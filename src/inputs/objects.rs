@@ -10,8 +10,8 @@ use rockfrag_core::warning::{Warning, Warnings};
 
 use super::floors::{self, Building, Storey};
 use super::numbers::is_missing;
-use super::roles::{Role, meaning};
-use super::words::{joined, means, normal, synonyms};
+use super::roles::{Role, holds, meaning};
+use super::words::{is_one_of, joined, means, normal, synonyms};
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
@@ -46,7 +46,7 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
             [name, first].iter().any(|cell| means(cell, "total"))
         });
         let list = List::new(&grid, defaults)?;
-        reader.tell(path, &grid, list.meanings());
+        reader.tell(path, &grid, list.meanings(), list.unread());
         Ok((list.objects(), list.doubts()))
     };
     list(reader).map_err(|error: InputError| error.in_file(path))
@@ -115,8 +115,12 @@ impl List<'_> {
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
         }
-        let remarks = grid.notes.iter().map(String::as_str).chain(self.beside());
-        let remarked = remarks.filter_map(|note| Some((note, unit_of_remark(note)?))).next();
+        let own =
+            grid.headings.iter().zip(&self.columns).filter(|(_, of)| matches!(of, Role::Name | Role::Kept));
+        let of_headings = own.filter_map(|(heading, _)| Some((&*heading.text, heading.unit?)));
+        let of_lengths = |(_, unit): &(&str, Unit)| unit.quantity == Quantity::Length;
+        let mut of_remarks = self.remarks().filter_map(|note| Some((note, unit_of_remark(note)?)));
+        let remarked = of_headings.clone().find(of_lengths).or_else(|| of_remarks.next());
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             if matches!(column, Role::Known(_)) && (heading.is_scaled || heading.is_percent) {
                 let found = format!("heading '{}'", heading.text);
@@ -136,8 +140,8 @@ impl List<'_> {
                 )?;
             }
             let size = heading.unit.map_or(1.0, |unit| unit.si);
-            if let Some((note, _)) = remarked.filter(|(_, unit)| is_side && unit.si != size) {
-                let found = format!("a remark on units: '{note}'");
+            if let Some((note, unit)) = remarked.filter(|(_, unit)| is_side && unit.si != size) {
+                let found = format!("a unit of lengths, {}, in '{note}'", unit.name);
                 return Err(InputError::unexpected(
                     found,
                     "the unit in the heading of each column: Width (mm)",
@@ -147,10 +151,27 @@ impl List<'_> {
         Ok(())
     }
 
-    /// What stands beside the table, under no heading.
-    fn beside(&self) -> impl Iterator<Item = &str> {
-        let columns = (0..self.columns.len()).filter(|at| self.grid.headings[*at].text.is_empty());
-        columns.flat_map(move |at| self.grid.rows().map(move |row| self.grid.cell(row, at)))
+    /// What stands above, between, below or beside the rows, and headings of names and the list's own columns.
+    fn remarks(&self) -> impl Iterator<Item = &str> {
+        let own = [Role::Name, Role::Kept];
+        let columns = (0..self.columns.len()).filter(move |at| own.contains(&self.columns[*at]));
+        let beside = columns.flat_map(move |at| {
+            let heading = &*self.grid.headings[at].text;
+            let cells = self.grid.rows().map(move |row| self.grid.cell(row, at));
+            let is_remark = heading.is_empty() || heading == "Section";
+            std::iter::once(heading).chain(cells.filter(move |_| is_remark))
+        });
+        self.grid.notes.iter().map(String::as_str).chain(beside)
+    }
+
+    /// Remarks on what decides, which are not used.
+    fn unread(&self) -> Vec<String> {
+        let is_on_centre = |note: &str| joined(note).split('-').any(|word| is_one_of(word, "centre"));
+        let notes = self.grid.notes.iter();
+        notes
+            .filter(|note| is_on_anchors(note) || is_on_floors(note) || is_on_centre(note))
+            .cloned()
+            .collect()
     }
 
     fn column(&self, wanted: Role) -> Option<usize> {
@@ -283,6 +304,9 @@ impl List<'_> {
                 _ => continue,
             };
             let is_needed = |field: &Field| !is_round && NEEDED.contains(field);
+            if fields.iter().any(|field| field.entry().quantity.is_some()) && cell.ends_with('%') {
+                return Err(format!("'{cell}' under '{}'; expected no percent", self.grid.headings[at].text));
+            }
             if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
                 continue;
             }
@@ -365,13 +389,7 @@ impl List<'_> {
         let mut anchors = cells(Role::Held).filter(|(_, cell)| !cell.is_empty()).peekable();
         let says_nothing = anchors.peek().is_none();
         let has_floor = self.column(Role::Storey).is_some() || self.defaults.place.level.is_some();
-        let speaks = |cell: &str| {
-            let is_floor =
-                matches!(Storey::parse(cell), Some(Storey::Number(_) | Storey::Above(_) | Storey::Roof));
-            let is_held =
-                joined(cell).split('-').any(|word| synonyms("holds").any(|part| word.starts_with(part)));
-            is_held && says_nothing || is_floor && !has_floor && cell.contains(char::is_alphabetic)
-        };
+        let speaks = |cell: &str| is_on_anchors(cell) && says_nothing || is_on_floors(cell) && !has_floor;
         let open = |(heading, cell): (&str, &str)| {
             let words =
                 format!("{heading} '{cell}': a floor or an anchor? Say so in a column Floor or Anchored");
@@ -383,9 +401,23 @@ impl List<'_> {
     }
 }
 
+fn is_on_anchors(text: &str) -> bool {
+    joined(text).split('-').any(holds)
+}
+
+/// Whether a text says on which floor, by a number with a word for floors, or by a word for the upper ones.
+fn is_on_floors(text: &str) -> bool {
+    let words = joined(text);
+    let has = |meaning: &str| words.split('-').any(|word| is_one_of(word, meaning) && word.len() > 2);
+    let is_one = matches!(Storey::parse(text), Some(Storey::Number(_) | Storey::Above(_)));
+    let has_number =
+        text.contains(|sign: char| sign.is_ascii_digit()) || words.split('-').any(floors::is_ordinal);
+    has("upper") || has("of-floors") && has_number || is_one && text.contains(char::is_alphabetic)
+}
+
 /// The unit of lengths that a remark names, other than behind a number: all in mm.
 fn unit_of_remark(note: &str) -> Option<Unit> {
-    let note = normal(note);
+    let note = normal(note).to_lowercase();
     let words: Vec<&str> =
         note.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
     let behind = [""].into_iter().chain(words.iter().copied());

@@ -17,6 +17,9 @@ pub struct Reading {
     /// Number of rows of data.
     pub rows: usize,
     pub columns: Vec<ColumnReading>,
+    /// Remarks on what decides, which are not used.
+    #[serde(default)]
+    pub unread: Vec<String>,
     /// Lines that are no data, and what they were taken for: `line 4: section 'Level 2'`.
     pub others: Vec<String>,
 }
@@ -66,12 +69,17 @@ impl Reading {
         Path::new(&self.file).file_name().unwrap_or(self.file.as_ref()).to_string_lossy()
     }
 
-    /// Names the columns that are not understood, if there are any.
+    /// Names the columns and remarks that are not understood, if there are any.
     pub fn gaps(&self) -> Option<String> {
         let columns = self.columns.iter().filter(|column| column.meaning == Meaning::NotUnderstood);
-        let names: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
-        let columns = if names.len() == 1 { "column" } else { "columns" };
-        let gaps = || format!("Not understood in {}: {columns} {}.", self.name(), listed(&names, NAMED));
-        (!names.is_empty()).then(gaps)
+        let columns: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
+        let unread: Vec<String> = self.unread.iter().map(|remark| format!("'{remark}'")).collect();
+        let told =
+            [("column", columns), ("remark", unread)].into_iter().filter(|(_, names)| !names.is_empty());
+        let told = told.map(|(kind, names)| {
+            format!("{kind}{} {}", if names.len() == 1 { "" } else { "s" }, listed(&names, NAMED))
+        });
+        let told: Vec<String> = told.collect();
+        (!told.is_empty()).then(|| format!("Not understood in {}: {}.", self.name(), told.join("; ")))
     }
 }

@@ -6,10 +6,12 @@ use std::io::Cursor;
 use calamine::open_workbook_auto_from_rs;
 use calamine::{Cell, Data, DataType, Range, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
 
+use rockfrag_core::units::Unit;
 use zip::ZipArchive;
 
 use super::error::{InputError, Result, expect_few_cells};
 use super::grid::Source;
+use super::words::normal;
 use crate::number::rounded;
 use crate::source::guarded;
 
@@ -168,10 +170,15 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
             Err(error) => return Err(InputError::damaged(error)),
         };
         let format = reader.styles().get(style).and_then(|style| style.number_format.as_ref());
-        let is_percent = format.is_some_and(|format| format.format_code.contains('%'));
-        let shown = match value.as_f64().filter(|_| is_percent) {
-            Some(share) => format!("{}%", rounded(100.0 * share)),
-            None => text(&value, Some(formula.get_value())),
+        let code = format.map_or("", |format| &format.format_code);
+        // What the format writes behind the number: 0" mm", General\ \c\m.
+        let plain = code.split(';').next().unwrap_or_default().replace(['"', '\\'], "");
+        let behind = plain.trim_start_matches("General").rsplit(['0', '#', '?']).next().unwrap_or_default();
+        let is_unit = code.contains(['"', '\\']) && Unit::parse(&normal(behind)).is_some();
+        let shown = match value.as_f64() {
+            Some(share) if code.contains('%') => format!("{}%", rounded(100.0 * share)),
+            Some(number) if is_unit => format!("{number} {}", behind.trim()),
+            _ => text(&value, Some(formula.get_value())),
         };
         Ok(Cell::new(formula.get_position(), shown))
     });

@@ -143,6 +143,14 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,Floor,Storeys,Building\na,0.5,2,3,5,jelly\nb,0.5,2,0,5,\n", "jelly"),
         ("name,width,height,centre of mass (cm)\na,0.5,2,80\n", "centre of mass"),
         ("name,width,height,friction class\na,0.5,2,C2\n", "friction class"),
+        ("name,width,height,Not anchored\na,0.5,2,x\n", "Not anchored"),
+        ("name,width,height,Unrestrained\na,0.5,2,yes\n", "Unrestrained"),
+        ("name,width,height,Qty (pairs)\na,0.5,2,2\n", "Qty (pairs)"),
+        ("name,width,height,Location\na,0.5,2,3rd floor east\nb,0.5,2,hall\n", "3rd floor east"),
+        ("name,width,height\nStorey 3 - laboratories\na,0.5,2\n", "Storey 3"),
+        ("name,width,height,Notes\na,0.5,2,bolted to slab\n", "bolted to slab"),
+        ("name,width,height,Centre height\na,0.5,2,45%\n", "45%"),
+        ("name,width,Ø,height\na,0.5,0.4,2\n", "diameter"),
         ("name,width,height\nA,0.5 m,2\nB,0.5,2\n", "0.5 m"),
         ("name,width,height\nrack,#N/A,2.0\nshelf,0.9,1.8\n", "#N/A"),
         ("Qty,width,height\n#N/A,0.4,1.9\n2,0.5,1.9\n#REF!,0.3,1.9\n", "#N/A"),
@@ -197,6 +205,11 @@ fn lengths_that_no_list_has_are_refused_with_what_is_meant() {
         ("name,width,height\n", "rows"),
         ("Item,Building height (m),Object height (m)\na,17,2\n", "'Building height (m)'"),
         ("name,width,height\na,20,75\n* all dimensions in inches\n", "in inches"),
+        ("name,width,height\n(mm),,\na,3,9\n", "mm"),
+        ("name,width,height,cm\na,3,9,\n", "cm"),
+        ("Name;Breite;Höhe\nMaße in Zentimeter\nVase;3;9\n", "Zentimeter"),
+        ("name,width,height,CoG (% of height)\na,0.5,2,30\n", "%"),
+        ("name,Number,width,height\na,101,0.5,2\nb,105,0.5,2\n", "--columns count=Number"),
     ] {
         let refusal = read(list, "", None).unwrap_err().to_string();
         assert!(refusal.contains(named), "{named}: {refusal}");

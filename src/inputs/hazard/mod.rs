@@ -194,7 +194,7 @@ impl Found {
         for column in columns.iter().filter(|column| column.frequency.is_some()) {
             grid.headings[column.at].unit = None;
         }
-        reader.tell(path, &grid, meanings);
+        reader.tell(path, &grid, meanings, Vec::new());
         Ok(())
     }
 

@@ -1,0 +1,119 @@
+//! What the columns of a list say, by their headings.
+
+use rockfrag_core::object::Field;
+use rockfrag_core::units::Quantity;
+use strum::VariantArray;
+
+use super::Heading;
+use super::words::{is_one_of, synonyms};
+
+/// What a column of a list says.
+#[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
+pub enum Role {
+    Name,
+    #[strum(to_string = "{0}")]
+    Known(Field),
+    /// Of a round base.
+    Diameter,
+    Count,
+    /// A number that counts objects or names them.
+    Number,
+    /// The unit of lengths.
+    Unit,
+    /// Known, and not needed.
+    Mass,
+    /// What holds an object.
+    Held,
+    /// The floor that it stands on.
+    Storey,
+    /// The number of storeys of its building.
+    Storeys,
+    Building,
+    /// A property of the object that is not understood: without it the object has no answer.
+    Unclear,
+    /// What befell the object.
+    Other,
+    /// Texts of the list's own.
+    Kept,
+    NotUnderstood,
+}
+
+/// Whether a heading is of a list: a size, or p.
+pub fn is_of_list(heading: &Heading) -> bool {
+    let sizes = [Field::Width, Field::Height, Field::P].map(Role::Known);
+    sizes.contains(&meaning(heading)) || meaning(heading) == Role::Diameter
+}
+
+/// Whether a heading says what an object is like or where it stands, p, alpha and eta aside.
+pub fn describes_object(heading: &Heading) -> bool {
+    match meaning(heading) {
+        // Of an earthquake or a station.
+        _ if heading.unit.is_some_and(|unit| unit.name == "km") => false,
+        Role::Known(field) => !matches!(field, Field::P | Field::Alpha | Field::Eta),
+        Role::Unclear => synonyms("of-objects").any(|part| heading.name.contains(part)),
+        column => matches!(column, Role::Storey | Role::Storeys),
+    }
+}
+
+/// What a heading says, parsed to its end: one with a word left over is not understood.
+pub fn meaning(heading: &Heading) -> Role {
+    let name = &*heading.name;
+    let words: Vec<&str> = name.split('-').filter(|word| !is_one_of(word, "of-sizes")).collect();
+    let (centres, others): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_one_of(word, "centre"));
+    let is_one_thing = |role: &Role| words.iter().all(|word| known(word).as_ref() == Some(role));
+    let quantity = heading.unit.map(|unit| unit.quantity);
+    let are_all = |is_one: &dyn Fn(&str) -> bool, other: &str| {
+        words.iter().any(|word| is_one(word))
+            && words.iter().all(|word| is_one(word) || is_one_of(word, other))
+    };
+    if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
+        role
+    } else if are_all(&|word| is_one_of(word, "count"), "of-counts") || quantity == Some(Quantity::Counts) {
+        Role::Count
+    } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
+        // In two languages.
+        role
+    } else if !centres.is_empty() {
+        match known(&others.join("-")) {
+            Some(Role::Known(Field::Height)) => Role::Known(Field::CentreHeight),
+            Some(Role::Known(Field::CentreOffset)) => Role::Known(Field::CentreOffset),
+            _ => Role::Unclear,
+        }
+    } else if are_all(&holds, "of-anchors") {
+        Role::Held
+    } else if name.is_empty() && heading.text == "#" {
+        Role::Number
+    } else if ["of-objects", "holds"].iter().any(|of| synonyms(of).any(|part| name.contains(part)))
+        || words.iter().any(|word| is_one_of(word, "count"))
+        || is_one_of(name, "free")
+        || quantity == Some(Quantity::Length)
+    {
+        // A length is perhaps another side of the base: without it the object would seem safer.
+        Role::Unclear
+    } else {
+        Role::NotUnderstood
+    }
+}
+
+/// Whether a word is of what holds an object.
+pub fn holds(word: &str) -> bool {
+    synonyms("holds").any(|start| word.starts_with(start))
+}
+
+/// The role of a heading in these words.
+fn known(name: &str) -> Option<Role> {
+    const OTHERS: [(&str, Role); 8] = [
+        ("diameter", Role::Diameter),
+        ("count", Role::Count),
+        ("number", Role::Number),
+        ("unit", Role::Unit),
+        ("mass", Role::Mass),
+        ("storey", Role::Storey),
+        ("storeys", Role::Storeys),
+        ("building", Role::Building),
+    ];
+    let fields = Field::VARIANTS.iter().map(|field| (field.into(), Role::Known(*field)));
+    let mut all = fields.chain(OTHERS).filter(|(meaning, _)| name == *meaning || is_one_of(name, meaning));
+    all.next().map(|(_, role)| role).filter(|_| !name.is_empty())
+}
