@@ -9,7 +9,7 @@ use rockfrag_core::units::Unit;
 
 use super::ReadOptions;
 use super::header::{
-    after, first_number, leading_number, numbers, samples, single_spaced, time_step, unit_of,
+    Field, after, field, label, number, numbers, samples, single_spaced, time_step, unit_of,
 };
 use crate::inputs::words::is_vertical;
 use crate::inputs::{InputError, Result};
@@ -36,14 +36,14 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
     let mut at = 0;
     while at < lines.len() {
         let text = lines[at];
-        let announces = |words| after(text, words).is_some() && leading_number(text).is_some();
+        let announces = |words| after(text, words).is_some() && number(text).is_some();
         at += 1;
         if announces("integer-header values") {
             channel.integers = block(lines, &mut at)?;
         } else if announces("real-header values") {
             channel.reals = block(lines, &mut at)?;
         } else if announces("acceleration pts") {
-            let unit = unit_of(after(text, "units=").or(Some("")), options, at)?;
+            let unit = unit_of(Field { line: at, ..field(&[text], "units=") }, options)?;
             let step_ms = channel.reals.get(TIME_STEP_MS).filter(|step| **step > 0.0);
             let dt_s = time_step(step_ms.map(|step| step / MS_PER_S), options, at)?;
             motions.push(std::mem::take(&mut channel).motion(dt_s, block(lines, &mut at)?, unit));
@@ -64,7 +64,7 @@ fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>> {
     let text = lines[*at - 1];
     let expected = "a count and 'Format=(8F10.5)'";
     let missing = InputError::Missing { line: *at, field: "format", expected };
-    let count = leading_number(text).filter(|count| *count >= 0.0);
+    let count = number(text).filter(|count| *count >= 0.0);
     let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
     let extent = (count / on_line as f64).ceil() as usize;
     let start = std::mem::replace(at, lines.len().min(at.saturating_add(extent)));
@@ -98,24 +98,24 @@ struct Channel<'a> {
 
 impl Channel<'_> {
     fn motion(self, dt_s: f64, values: Vec<f64>, unit: Unit) -> RecordedMotion {
-        let find = |key| self.header.iter().find_map(|text| after(text, key));
+        let find = |key| Some(field(&self.header, key).text).filter(|text| !text.is_empty());
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let label = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
+        let name = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
         let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
         // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
         let channel = find("<SCNL>").and_then(|rest| rest.split('.').nth(1));
         let is_vertical = VERTICAL.contains(&code)
-            || label.as_deref().is_some_and(is_vertical)
+            || name.as_deref().is_some_and(is_vertical)
             || channel.is_some_and(|channel| channel.ends_with('Z'));
         // Other codes above 360 are not azimuths; nor is 0, since north is 360.
         let azimuth = Some(code).filter(|azimuth| (1.0..=360.0).contains(azimuth));
-        let degrees = label.as_deref().filter(|text| after(text, "deg").is_some()).and_then(first_number);
+        let degrees = name.as_deref().filter(|text| after(text, "deg").is_some()).and_then(number);
         let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
         let origin = Origin {
-            earthquake: find("Record of ").and_then(single_spaced),
-            station: find("Code:").and_then(single_spaced),
+            earthquake: label(&self.header, &["Record of "]),
+            station: label(&self.header, &["Code:"]),
             azimuth_deg: azimuth.filter(|_| !is_vertical),
-            component: if is_vertical { Some("vertical".to_string()) } else { label },
+            component: if is_vertical { Some("vertical".to_string()) } else { name },
             ..Origin::default()
         };
         RecordedMotion {

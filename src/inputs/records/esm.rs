@@ -5,7 +5,7 @@ use rockfrag_core::units::CM_PER_M;
 
 use super::ReadOptions;
 use super::header::{
-    after, azimuth_of, field, header_pga, number_field, numbers, samples, single_spaced, time_step, unit_of,
+    Field, after, azimuth_of, field, header_pga, label, number, numbers, samples, time_step, unit_of,
 };
 use crate::inputs::{InputError, Result};
 
@@ -13,38 +13,36 @@ use crate::inputs::{InputError, Result};
 const HEADER: usize = 200;
 
 pub fn recognises(lines: &[&str]) -> bool {
-    field(header(lines), "SAMPLING_INTERVAL_S:").is_some()
+    !field(header(lines), "SAMPLING_INTERVAL_S:").text.is_empty()
 }
 
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let header = header(lines);
-    let end = header.len();
-    if let Some((line, kind)) = field(header, "DATA_TYPE:")
-        && after(kind, "ACCELERATION").is_none()
-    {
-        return Err(InputError::NotAcceleration { line, found: kind.to_string() });
+    let Field { line, text } = field(header, "DATA_TYPE:");
+    if !text.is_empty() && after(text, "ACCELERATION").is_none() {
+        return Err(InputError::NotAcceleration { line, found: text.to_string() });
     }
-    let (line, unit) = field(header, "UNITS:").unzip();
-    let unit = unit_of(unit, options, line.unwrap_or(end))?;
-    let (line, step) = number_field(header, "SAMPLING_INTERVAL_S:").unzip();
-    let dt_s = time_step(step, options, line.unwrap_or(end))?;
+    let unit = unit_of(field(header, "UNITS:"), options)?;
+    let step = field(header, "SAMPLING_INTERVAL_S:");
+    let dt_s = time_step(number(step.text), options, step.line)?;
+    let Field { line, text } = field(header, "NDATA:");
     let expected = "the number of samples, such as 'NDATA: 18904'";
-    let missing = InputError::Missing { line: end, field: "NDATA", expected };
-    let (_, announced) = number_field(header, "NDATA:").ok_or(missing)?;
-    let values = samples(lines, end, announced, numbers)?;
-    let stream = field(header, "STREAM:").map_or("", |(_, stream)| stream);
+    let announced = number(text).ok_or(InputError::Missing { line, field: "NDATA", expected })?;
+    let values = samples(lines, header.len(), announced, numbers)?;
+    let component = label(header, &["STREAM:"]);
     // The last letter of a channel code is the direction; a digit is not.
-    let letter = stream.get(stream.len().saturating_sub(1)..).unwrap_or("");
+    let letter = component.as_ref().and_then(|code| code.get(code.len() - 1..));
+    let letter = letter.filter(|letter| letter.parse::<u8>().is_err());
     let origin = Origin {
-        earthquake: joined(header, ["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
-        mw: number_field(header, "MAGNITUDE_W:").map(|(_, mw)| mw),
-        station: joined(header, ["NETWORK:", "STATION_CODE:", "STATION_NAME:"]),
-        component: single_spaced(stream),
-        azimuth_deg: azimuth_of(letter).filter(|_| !letter.starts_with(|c: char| c.is_ascii_digit())),
+        earthquake: label(header, &["EVENT_NAME:", "EVENT_DATE_YYYYMMDD:", "EVENT_TIME_HHMMSS:"]),
+        mw: number(field(header, "MAGNITUDE_W:").text),
+        station: label(header, &["NETWORK:", "STATION_CODE:", "STATION_NAME:"]),
+        azimuth_deg: letter.and_then(azimuth_of),
+        component,
         re_km: None,
     };
     Ok(RecordedMotion {
-        header_pga: field(header, "PGA_CM/S^2:").and_then(|(_, peak)| header_pga(peak, 1.0 / CM_PER_M)),
+        header_pga: header_pga(field(header, "PGA_CM/S^2:").text, 1.0 / CM_PER_M),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }
@@ -53,9 +51,4 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
 fn header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
     let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
     &lines[..end]
-}
-
-fn joined(header: &[&str], keys: [&str; 3]) -> Option<String> {
-    let parts: Vec<&str> = keys.into_iter().filter_map(|key| Some(field(header, key)?.1)).collect();
-    single_spaced(&parts.join(" "))
 }

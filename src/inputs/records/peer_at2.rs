@@ -6,10 +6,9 @@ use rockfrag_core::units::G_M_S2;
 
 use super::ReadOptions;
 use super::header::{
-    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, single_spaced, time_step,
-    unit_of,
+    Field, after, azimuth_of, field, header_pga, number, numbers, samples, single_spaced, time_step, unit_of,
 };
-use crate::inputs::{InputError, Result};
+use crate::inputs::{InputError, Result, plain_number};
 
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
@@ -28,11 +27,8 @@ fn line_of_counts(lines: &[&str]) -> Option<usize> {
 
 /// Whether a line has a number of samples, a time step, perhaps a third number, and nothing else.
 fn are_counts(line: &str) -> bool {
-    let words: Vec<&str> = line.split_ascii_whitespace().collect();
-    let is_count = |word: &&str| word.trim_end_matches(".0").parse().is_ok_and(|count: usize| count > 1);
-    matches!(words.len(), 2 | 3)
-        && is_count(&words[0])
-        && words.iter().all(|word| word.parse::<f64>().is_ok())
+    let numbers: Option<Vec<f64>> = line.split_ascii_whitespace().map(plain_number).collect();
+    numbers.is_some_and(|all| matches!(all.len(), 2 | 3) && all[0] > 1.0 && all[0].fract() == 0.0)
 }
 
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
@@ -45,14 +41,14 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     if let Some((text, line)) = others.find(|(text, _)| is_other(text)) {
         return Err(InputError::NotAcceleration { line, found: text.trim().to_string() });
     }
-    let (unit, line) =
-        header.iter().zip(1..).find_map(|(line, number)| Some((unit_words(line)?, number))).unzip();
-    let unit = unit_of(unit, options, line.unwrap_or(3))?;
+    let unit = header.iter().zip(1..).find_map(|(text, line)| Some(Field { text: unit_words(text)?, line }));
+    let unit = unit_of(unit.unwrap_or(Field { line: 3, text: "" }), options)?;
     // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
-    let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
-    let (first, second) = (unnamed.next(), unnamed.next());
-    let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
-    let dt_s = time_step(named(counts, "DT").or(second), options, at + 1)?;
+    let mut unnamed = counts.split_ascii_whitespace().map_while(plain_number).fuse();
+    let [first, second] = [unnamed.next(), unnamed.next()];
+    let named = |key| after(counts, key).and_then(number);
+    let announced = named("NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
+    let dt_s = time_step(named("DT").or(second), options, at + 1)?;
     let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
@@ -65,7 +61,6 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let date = before.iter().position(is_date);
     let event_parts = date.map_or(1, |date| date + 1).min(before.len());
     let (event, station) = before.split_at(event_parts);
-    let pga = header.iter().find_map(|line| after(line, "PGA"));
     let origin = Origin {
         azimuth_deg: azimuth_of(component),
         earthquake: single_spaced(&event.join(", ")),
@@ -74,7 +69,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
         ..Origin::default()
     };
     Ok(RecordedMotion {
-        header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), G_M_S2)),
+        header_pga: header_pga(field(header, "PGA").text, G_M_S2),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
 }
@@ -82,11 +77,5 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
 /// The text behind what announces a unit: `IN UNITS OF G`, `Accelerations (g)`.
 fn unit_words(line: &str) -> Option<&str> {
     let is_alone = line.trim_start().get(..5).is_some_and(|start| start.eq_ignore_ascii_case("accel"));
-    after(line, "UNITS OF").or_else(|| after(line, "(").filter(|_| is_alone))
-}
-
-/// The number behind a name: of `NPTS=  7818`.
-fn named(counts: &str, key: &str) -> Option<f64> {
-    let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
-    first_number(value.strip_prefix(['=', ':'])?)
+    after(line, "UNITS OF").or_else(|| after(line, "(").filter(|_| is_alone)).map(str::trim_start)
 }
