@@ -32,18 +32,16 @@ pub struct Member {
     pub bytes: Vec<u8>,
 }
 
-/// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
-pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>> {
-    unpack_up_to(usize::MAX, bytes)
-}
-
 /// Returns the only file in an archive, or the bytes themselves, unpacked.
 pub fn unpack_one(bytes: Vec<u8>) -> Result<Vec<u8>> {
-    let only = unpack_up_to(1, bytes)?.pop();
-    only.map(|member| member.bytes).ok_or(InputError::Members { found: Vec::new() })
+    match <[Member; 1]>::try_from(unpack(bytes)?) {
+        Ok([only]) => Ok(only.bytes),
+        Err(all) => Err(InputError::Members { found: all.into_iter().filter_map(|one| one.name).collect() }),
+    }
 }
 
-fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
+/// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
+pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>> {
     let (mut left, mut members) = (LARGEST, Vec::new());
     let mut packed = vec![Member { name: None, bytes }];
     while let Some(Member { name, bytes }) = packed.pop() {
@@ -70,8 +68,7 @@ fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
         }
     }
     members.sort_by(|one, other| one.name.cmp(&other.name));
-    let found: Vec<String> = members.iter().filter_map(|one| one.name.clone()).collect();
-    if found.len() > most { Err(InputError::Members { found }) } else { Ok(members) }
+    Ok(members)
 }
 
 /// Reads the files of a zip archive; none of a workbook, whose parts must be small all the same.
@@ -118,13 +115,10 @@ fn expect_workbook(text: &str) -> Result<()> {
 fn expect_true_counts(part: &[u8]) -> Result<()> {
     let text = String::from_utf8_lossy(part);
     expect_workbook(&text)?;
-    for name in [" uniqueCount=", " si="] {
-        for (at, _) in text.match_indices(name) {
-            let value = text[at + name.len()..].trim_start_matches(['"', '\'']);
-            let digits = value.split(|sign: char| !sign.is_ascii_digit()).next().unwrap_or_default();
-            if digits.parse().is_ok_and(|count: usize| count > part.len() / LEAST_ENTRY) {
-                return Err(InputError::damaged(format!("{}{digits}", name.trim())));
-            }
+    let values = [" uniqueCount=", " si="].into_iter().flat_map(|name| text.split(name).skip(1));
+    for value in values.filter_map(|rest| rest.get(1..)?.split(['"', '\'']).next()) {
+        if value.parse().is_ok_and(|count: usize| count > part.len() / LEAST_ENTRY) {
+            return Err(InputError::damaged(format!("a count of {value}")));
         }
     }
     Ok(())

@@ -8,9 +8,7 @@ use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
 use rockfrag_core::units::Unit;
 
 use super::ReadOptions;
-use super::header::{
-    Field, after, field, label, number, numbers, samples, single_spaced, time_step, unit_of,
-};
+use super::header::{Field, after, field, label, number, samples, single_spaced, time_step, unit_of};
 use crate::inputs::words::is_vertical;
 use crate::inputs::{InputError, Result};
 
@@ -31,8 +29,8 @@ pub fn recognises(lines: &[&str]) -> bool {
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let mut motions = Vec::new();
     let mut channel = Channel::default();
-    let (line, expected) = (lines.len(), "'... acceleration pts, ...'");
-    let mut refusal = InputError::Missing { line, field: "acceleration", expected };
+    let expected = "'... acceleration pts, ...'";
+    let mut refusal = InputError::Missing { line: lines.len(), field: "acceleration", expected };
     let mut at = 0;
     while at < lines.len() {
         let text = lines[at];
@@ -59,7 +57,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion
 }
 
 /// Reads the block of numbers announced on the line before `at` (`100 Real-header values follow on 20 lines,
-/// Format= (5F15.6)`): by field width, since blanks may be missing, or as words, if edits changed them.
+/// Format= (5F15.6)`), by field width, since blanks may be missing.
 fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>> {
     let text = lines[*at - 1];
     let expected = "a count and 'Format=(8F10.5)'";
@@ -68,10 +66,7 @@ fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>> {
     let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
     let extent = (count / on_line as f64).ceil() as usize;
     let start = std::mem::replace(at, lines.len().min(at.saturating_add(extent)));
-    let length = lines[start..*at].iter().position(|line| after(line, "end-of-data").is_some());
-    let end = length.map_or(*at, |length| start + length);
-    let by_width = samples(&lines[..end], start, count, |line| fields(line, width));
-    by_width.or_else(|_| samples(&lines[..end], start, count, numbers))
+    samples(&lines[..*at], start, count, |line| fields(line, width))
 }
 
 /// Reads how many numbers are on a line, and their width, in `Format= (5F15.6)`.
@@ -98,19 +93,18 @@ struct Channel<'a> {
 
 impl Channel<'_> {
     fn motion(self, dt_s: f64, values: Vec<f64>, unit: Unit) -> RecordedMotion {
-        let find = |key| Some(field(&self.header, key).text).filter(|text| !text.is_empty());
-        let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let name = find("Sta Chan").and_then(|rest| single_spaced(after(rest, ":")?.split('(').next()?));
+        let text = |key| field(&self.header, key).text;
+        let name = after(text("Sta Chan"), ":").and_then(|name| single_spaced(name.split('(').next()?));
         let code = self.integers.get(AZIMUTH).copied().unwrap_or_default();
         // Of HNZ.XX in `<SCNL>12345.HNZ.XX.10`, which some programs write with an azimuth of 360.
-        let channel = find("<SCNL>").and_then(|rest| rest.split('.').nth(1));
+        let channel = text("<SCNL>").split('.').nth(1);
         let is_vertical = VERTICAL.contains(&code)
             || name.as_deref().is_some_and(is_vertical)
             || channel.is_some_and(|channel| channel.ends_with('Z'));
-        // Other codes above 360 are not azimuths; nor is 0, since north is 360.
-        let azimuth = Some(code).filter(|azimuth| (1.0..=360.0).contains(azimuth));
         let degrees = name.as_deref().filter(|text| after(text, "deg").is_some()).and_then(number);
-        let azimuth = azimuth.or(degrees.filter(|degrees| (0.0..=360.0).contains(degrees)));
+        // Other codes above 360 are not azimuths; nor is 0, since north is 360.
+        let azimuth = [Some(code).filter(|code| *code >= 1.0), degrees];
+        let azimuth = azimuth.into_iter().flatten().find(|azimuth| (0.0..=360.0).contains(azimuth));
         let origin = Origin {
             earthquake: label(&self.header, &["Record of "]),
             station: label(&self.header, &["Code:"]),
@@ -118,12 +112,9 @@ impl Channel<'_> {
             component: if is_vertical { Some("vertical".to_string()) } else { name },
             ..Origin::default()
         };
-        RecordedMotion {
-            header_pga: peak.map(|peak| {
-                let m_s2 = peak.abs() * unit.si;
-                HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 }
-            }),
-            ..RecordedMotion::new(dt_s, values, unit, origin)
-        }
+        let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
+        let header_pga = peak.map(|peak| peak.abs() * unit.si);
+        let header_pga = header_pga.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 });
+        RecordedMotion { header_pga, ..RecordedMotion::new(dt_s, values, unit, origin) }
     }
 }

@@ -20,9 +20,14 @@ const QUANTITIES: [(&str, Quantity); 4] = [
     ("dis", Quantity::Length),
 ];
 
+/// Beginnings of words for horizontal components without an azimuth, which their first letters name, too.
+const HORIZONTAL: [&str; 3] = ["long", "tran", "rad"];
+
 struct Samples<'a> {
     grid: Grid,
     quantities: Vec<Option<Quantity>>,
+    /// Whether the lines are parts of one series.
+    is_wrapped: bool,
     /// The column of times: of numbers, else of a clock.
     times: Option<usize>,
     options: &'a ReadOptions,
@@ -30,19 +35,20 @@ struct Samples<'a> {
 
 pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let table = Samples::new(Grid::parse(bytes, None)?, options)?;
-    if options.column.as_deref() == Some("all") {
-        let (samples, step) = table.wrapped()?;
-        return Ok(vec![table.motion(&Heading::new(""), samples, step)?]);
+    if table.is_wrapped {
+        let row = |row| (0..table.filled(row)).map(move |column| (row, column));
+        let cells = table.grid.rows().flat_map(row).collect();
+        return Ok(vec![table.motion(&Heading::new(""), cells, noted_step(&table.grid.notes))?]);
     }
     let columns = match &options.column {
         Some(choice) => vec![table.chosen(choice)?],
         None => table.accelerations()?,
     };
-    table.expect_one_series(false, 0)?;
     let step = table.step()?;
     let mut motions = Vec::<RecordedMotion>::new();
     for column in columns {
-        let motion = table.motion(&table.grid.headings[column], table.samples(column, step)?, step)?;
+        let cells = table.grid.rows().map(|row| (row, column)).collect();
+        let motion = table.motion(&table.grid.headings[column], cells, step)?;
         if motions.iter().any(|other| !are_components(other, &motion)) {
             return Err(table.which_column());
         }
@@ -73,12 +79,8 @@ impl Samples<'_> {
         let quantities = quantities(&grid);
         let times = columns.filter(|at| quantities[*at] == Some(Quantity::Time));
         let times = times.min_by_key(|at| grid.number(0, *at).is_err());
-        Ok(Samples { grid, quantities, times, options })
-    }
-
-    /// The line of the first row.
-    fn line(&self) -> usize {
-        self.grid.lines[0]
+        let is_wrapped = options.column.as_deref() == Some("all");
+        Ok(Samples { grid, quantities, is_wrapped, times: times.filter(|_| !is_wrapped), options })
     }
 
     /// The column that the user names by its number or heading.
@@ -119,40 +121,56 @@ impl Samples<'_> {
         }
     }
 
-    /// The motion of samples under a heading, with the time step (s) found in the file.
-    fn motion(&self, heading: &Heading, samples: Vec<f64>, found: Option<f64>) -> Result<RecordedMotion> {
-        if samples.len() < 2 {
-            return Err(InputError::Count { announced: 2, found: samples.len() });
+    /// The motion in cells under a heading, with the time step (s) found in the file.
+    fn motion(
+        &self,
+        heading: &Heading,
+        cells: Vec<(usize, usize)>,
+        step: Option<f64>,
+    ) -> Result<RecordedMotion> {
+        let mut samples = cells
+            .iter()
+            .map(|(row, column)| self.grid.number(*row, *column))
+            .collect::<Result<Vec<f64>>>()?;
+        let (above, step_above) = self.above(&samples, &cells, step);
+        if samples.len() < above + 2 {
+            return Err(InputError::Count { announced: 2, found: samples.len() - above });
         }
-        let unit = self.unit(heading)?;
-        let dt_s = time_step(found, self.options, self.line())?;
+        let (row, _) = cells[above];
+        self.expect_one_series(row)?;
+        samples.drain(..above);
+        let line = self.grid.lines[row.saturating_sub(1)];
+        let noted = || self.grid.notes.iter().find_map(|note| noted_unit(note));
+        let unit = heading.unit.or_else(|| noted().filter(|_| !heading.is_scaled));
+        let unit = header::unit(unit, self.options, line)?;
+        let dt_s = time_step(step.or(step_above), self.options, line)?;
         let (name, azimuth_deg) = direction(heading).unwrap_or((&heading.text, None));
         let component = Some(name.to_string()).filter(|name| !name.is_empty());
         let origin = Origin { component, azimuth_deg, ..Origin::default() };
         Ok(RecordedMotion::new(self.options.dt_s.unwrap_or(dt_s), samples, unit, origin))
     }
 
-    /// Finds the unit in the heading, else in a comment, else among the options.
-    fn unit(&self, heading: &Heading) -> Result<Unit> {
-        let noted = || self.grid.notes.iter().find_map(|note| noted_unit(note));
-        let found = heading.unit.or_else(|| noted().filter(|_| !heading.is_scaled));
-        let is_unknown = heading.is_scaled || heading.text.contains(['(', '[']);
-        if found.is_none() && self.options.unit.is_none() && is_unknown {
-            let expected = "one of acceleration, such as cm/s2, without a factor, or --unit";
-            return Err(InputError::value(self.line(), "unit", &heading.text, expected));
+    /// Finds how many numbers stand above samples without times, and the time step (s) among them: behind the
+    /// number of samples, `2000 0.01`, or alone, if it is the given one, or a usual one in other digits.
+    fn above(&self, samples: &[f64], cells: &[(usize, usize)], step: Option<f64>) -> (usize, Option<f64>) {
+        let &[first, second, _, ..] = samples else { return (0, None) };
+        let is_counted = |above: &usize| first == (samples.len() as f64) - (*above as f64);
+        if let Some(above) = (1..=3).find(is_counted).filter(|_| self.times.is_none() && first >= 2.0) {
+            return (above, Some(second).filter(|_| above > 1));
         }
-        header::unit(found, self.options, self.line())
+        let [digits, others] = [0, 1].map(|at| decimals_of(self.grid.cell(cells[at].0, cells[at].1)));
+        let rate = first.recip();
+        let is_usual = digits != others && (20.0..=1000.0).contains(&rate) && rate.fract() == 0.0;
+        let is_step = (is_usual || self.options.dt_s == Some(first)) && step.is_none();
+        let is_step = is_step && !self.grid.has_headings && !self.is_wrapped;
+        (usize::from(is_step), Some(first).filter(|_| is_step && self.options.dt_s.is_some()))
     }
 
-    /// Finds the time step (s) by the column of times, else by a comment, which must agree.
+    /// Finds the time step (s): the mean of a column of evenly spaced times, else that in a comment, which must
+    /// agree. Rounded times need the step that is given.
     fn step(&self) -> Result<Option<f64>> {
         let noted = noted_step(&self.grid.notes);
-        let Some(times) = self.times else { return Ok(noted) };
-        expect_step(noted, self.step_between(times)?, self.line()).map(Some)
-    }
-
-    /// Computes the mean step (s) of a column of evenly spaced times; rounded times need the step that is given.
-    fn step_between(&self, column: usize) -> Result<f64> {
+        let Some(column) = self.times else { return Ok(noted) };
         let (grid, given) = (&self.grid, self.options.dt_s);
         let unit = grid.headings[column].unit.filter(|unit| unit.quantity == Quantity::Time);
         let in_s = unit.map_or(1.0, |unit| unit.si);
@@ -180,55 +198,17 @@ impl Samples<'_> {
         }
         let mean = (times[times.len() - 1] - times[0]) / steps.len() as f64;
         // Removes digits that the file does not have.
-        Ok((mean * 1e12).round() / 1e12)
-    }
-
-    /// Reads the samples of a column; without headings and times, a number of samples and the time step that
-    /// is given may stand above them.
-    fn samples(&self, column: usize, step: Option<f64>) -> Result<Vec<f64>> {
-        let mut samples = self.grid.numbers(column)?;
-        let decimals = |row: usize| decimals_of(self.grid.cell(row, column));
-        let mut above = 0;
-        while above < 2 && above + 1 < samples.len() && !self.grid.has_headings && step.is_none() {
-            let first = samples[above];
-            let is_rate = (20.0..=1000.0).contains(&first.recip()) && first.recip().fract() == 0.0;
-            if is_rate && decimals(above) != decimals(above + 1) {
-                expect_step(self.options.dt_s, first, self.grid.lines[above])?;
-            }
-            let is_count = [1, 2].iter().any(|above| first == samples.len() as f64 - f64::from(*above));
-            if !is_count && self.options.dt_s != Some(first) {
-                break;
-            }
-            above += 1;
-        }
-        samples.drain(..above);
-        Ok(samples)
-    }
-
-    /// Reads all cells as one series, and the time step (s) in a comment or above it, behind the number of
-    /// samples: `2000 0.01`.
-    fn wrapped(&self) -> Result<(Vec<f64>, Option<f64>)> {
-        let grid = &self.grid;
-        let cells = grid.rows().flat_map(|row| (0..self.filled(row)).map(move |column| (row, column)));
-        let cells: Vec<(usize, usize)> = cells.collect();
-        let above = self.filled(0);
-        let is_header = above < self.quantities.len()
-            && grid.number(0, 0).is_ok_and(|count| count == (cells.len() - above) as f64);
-        self.expect_one_series(true, usize::from(is_header))?;
-        let step = (is_header && above > 1).then(|| grid.number(0, 1)).transpose()?;
-        let samples = cells.iter().skip(if is_header { above } else { 0 });
-        let samples = samples.map(|(row, column)| grid.number(*row, *column)).collect::<Result<_>>()?;
-        Ok((samples, noted_step(&grid.notes).or(step)))
+        expect_step(noted, (mean * 1e12).round() / 1e12, grid.lines[0]).map(Some)
     }
 
     /// Refuses samples without times among which another line stands, a line of more cells than the first, and
     /// a short line of wrapped ones before the last: another series may begin there, or the file is damaged.
-    fn expect_one_series(&self, is_wrapped: bool, skipped: usize) -> Result<()> {
-        let (lines, columns) = (&self.grid.lines, self.quantities.len());
-        let expected = if is_wrapped || self.grid.has_headings { columns } else { self.filled(0) };
-        for (row, &line) in lines.iter().enumerate().skip(skipped) {
+    fn expect_one_series(&self, first: usize) -> Result<()> {
+        let lines = &self.grid.lines;
+        let expected = if self.grid.has_headings { self.quantities.len() } else { self.filled(first) };
+        for (row, &line) in lines.iter().enumerate().skip(first) {
             let (found, next) = (self.filled(row), lines.get(row + 1));
-            if found > expected || is_wrapped && found < expected && next.is_some() {
+            if found > expected || self.is_wrapped && found < expected && next.is_some() {
                 return Err(InputError::ShortLine { line, found, expected });
             }
             if self.times.is_none() && next.is_some_and(|next| *next != line + 1) {
@@ -244,7 +224,7 @@ impl Samples<'_> {
     }
 
     fn not_acceleration(&self, found: String) -> InputError {
-        InputError::NotAcceleration { line: self.line(), found }
+        InputError::NotAcceleration { line: self.grid.lines[0], found }
     }
 
     fn which_column(&self) -> InputError {
@@ -265,34 +245,31 @@ fn names(note: &str, columns: usize) -> Option<Vec<Heading>> {
     (names.len() == columns && names.iter().all(is_name)).then_some(names)
 }
 
-/// Finds the quantity of each column from its heading. A first column that is not named and rises, or has a
-/// clock, is time, unless its numbers count the samples.
+/// Finds the quantity of each column from its heading. Of others the first that rises, or has a clock, is time
+/// where no heading says it, unless its numbers count the samples.
 fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
     let mut quantities: Vec<Option<Quantity>> = grid.headings.iter().map(quantity).collect();
-    if quantities.len() > 1 && quantities[0].is_none() && !quantities.contains(&Some(Quantity::Time)) {
-        let numbers = grid.numbers(0).unwrap_or_default();
-        let are_counts = numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
-        let rise = numbers.len() > 1 && numbers.is_sorted_by(|time, next| time < next);
-        quantities[0] = match rise || clock_s(grid.cell(0, 0)).is_some() {
-            true if rise && are_counts => Some(Quantity::Counts),
-            is_time => Some(Quantity::Time).filter(|_| is_time),
-        };
+    for at in 0..quantities.len() {
+        if quantities.len() > 1 && quantities[at].is_none() && !quantities.contains(&Some(Quantity::Time)) {
+            let numbers = grid.numbers(at).unwrap_or_default();
+            let rises = numbers.len() > 1 && numbers.is_sorted_by(|time, next| time < next);
+            let counts = rises && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
+            let is_time = rises || clock_s(grid.cell(0, at)).is_some();
+            let of = if counts { Quantity::Counts } else { Quantity::Time };
+            quantities[at] = Some(of).filter(|_| is_time);
+        }
     }
     quantities
 }
 
 /// The quantity that a heading names.
 fn quantity(heading: &Heading) -> Option<Quantity> {
-    let own = heading.unit.map(|unit| unit.quantity);
     let named = heading.name.split('-').find_map(|word| match word {
-        // A transverse component.
-        "t" if own == Some(Quantity::Acceleration) => None,
         "a" | "ag" => Some(Quantity::Acceleration),
-        "t" => Some(Quantity::Time),
         _ if word.ends_with("time") => Some(Quantity::Time),
         _ => QUANTITIES.iter().find(|(start, _)| word.starts_with(start)).map(|(_, quantity)| *quantity),
     });
-    named.or(own)
+    named.or(heading.unit.map(|unit| unit.quantity))
 }
 
 fn is_spectrum(heading: &Heading) -> bool {
@@ -312,16 +289,17 @@ fn direction(heading: &Heading) -> Option<(&str, Option<f64>)> {
     let letters = last.trim_start_matches(['A', 'a', 'C', 'c']);
     [name, last, letters].into_iter().find_map(|word| {
         let azimuth = azimuth_of(word.trim_end_matches(|sign: char| sign.is_ascii_digit()));
-        (azimuth.is_some() || is_vertical(word)).then_some((word, azimuth))
+        let lower = word.to_lowercase();
+        let is_horizontal = HORIZONTAL.iter().any(|of| lower.starts_with(of) || lower == of[..1]);
+        (azimuth.is_some() || is_horizontal || is_vertical(word)).then_some((word, azimuth))
     })
 }
 
 /// Whether a heading has the name of a component alone, or a number: H1, ax, HNE, acc_2.
 fn is_component(heading: &Heading) -> bool {
     let last = heading.bare.trim().rsplit([' ', '_', '.']).next().unwrap_or_default();
-    let is_code = last.len() == 3 && last.ends_with(['E', 'N']);
-    let is_numbered = last.ends_with(|sign: char| sign.is_ascii_digit());
-    direction(heading).is_some() || is_code || is_numbered || matches!(last.len(), 1 | 2)
+    let is_code = last.len() == 3 && last.ends_with(['E', 'N']) || matches!(last.len(), 1 | 2);
+    is_code || last.ends_with(|sign: char| sign.is_ascii_digit()) || direction(heading).is_some()
 }
 
 /// Reads the seconds within the hour in a cell such as `2020/01/20 20:13:20.01Z`, `8:13:20:010 PM` or
@@ -347,21 +325,21 @@ fn noted_unit(note: &str) -> Option<Unit> {
 }
 
 /// Reads the time step (s) in a comment such as `dt = 0.01 s`, `Sampling rate: 100 sps`, or
-/// `SamplingFrequency(Hz)`, perhaps with the number in the same place of the next one.
+/// `SamplingFrequency(Hz)`, perhaps with the number alone in the next one.
 fn noted_step(notes: &[String]) -> Option<f64> {
     let has = |name: &str, words: &[&str]| words.iter().any(|word| name.contains(word));
-    let is_rate = |name: &str| has(name, &["fs-", "hz", "sps", "rate", "freq", "per-s"]);
-    let is_step = |name: &str| {
-        let is_named = ["dt-", "fs-", "time-step", "time-interval"].iter().any(|key| name.starts_with(key));
-        is_named || name.contains("sampl") && (is_rate(name) || has(name, &["interval", "step", "period"]))
-    };
+    let is_rate = |name: &str| name.starts_with("fs-") || has(name, &["hz", "sps", "rate", "freq", "per-s"]);
     notes.iter().enumerate().find_map(|(at, note)| {
-        let mut names = note.split(',').map(|cell| joined(cell) + "-").enumerate();
-        let (place, name) = names.find(|(_, name)| is_step(name))?;
-        let mut cells = notes[at..].iter().take(2).filter_map(|note| note.split(',').nth(place));
-        let unit = Heading::new(cells.clone().next()?).unit;
-        let value = cells.find_map(number).filter(|value| *value > 0.0)?;
-        let in_s = unit.filter(|unit| unit.quantity == Quantity::Time).map_or(1.0, |unit| unit.si);
-        Some(if is_rate(&name) { value.recip() } else { value * in_s })
+        let of_samples = note.split(',').map(|cell| (cell, joined(cell) + "-")).find(|(_, name)| {
+            let is_named =
+                ["dt-", "fs-", "time-step", "time-interval"].iter().any(|key| name.starts_with(key));
+            let is_measure = is_rate(name) || has(name, &["interval", "step", "period"]);
+            is_named || name.contains("sampl") && is_measure
+        });
+        let (cell, name) = of_samples?;
+        let value = number(cell).or_else(|| notes.get(at + 1)?.trim().parse().ok());
+        let value = value.filter(|value| *value > 0.0)?;
+        let unit = Heading::new(cell).unit.filter(|unit| unit.quantity == Quantity::Time);
+        Some(if is_rate(&name) { value.recip() } else { value * unit.map_or(1.0, |unit| unit.si) })
     })
 }
