@@ -49,7 +49,8 @@ impl About {
         for (row, line) in grid.lines.iter().enumerate() {
             let earthquake = earthquake.and_then(|at| grid.value(row, at)).map(str::to_string);
             let origin = Origin { mw: mw[row], re_km: re_km[row], earthquake, ..Origin::default() };
-            let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
+            let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next());
+            let names = names.map(str::to_lowercase);
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
             // Some programs write 6.0 for 6.
             let number = number.map(|at| format!("rsn{}", grid.cell(row, at).trim_end_matches(".0")));
@@ -71,7 +72,8 @@ impl About {
     }
 
     pub fn get(&self, file: &Path) -> Option<&Origin> {
-        let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| key(&name.to_string_lossy()));
+        let [name, stem] =
+            [file.file_name()?, file.file_stem()?].map(|name| name.to_string_lossy().to_lowercase());
         // RSN6_IMPVALL.I_I-ELC180.AT2
         let number = stem.split('_').next().filter(|word| word.starts_with("rsn"));
         [&*name, &stem].into_iter().chain(number).find_map(|name| self.known.get(name))
@@ -88,8 +90,4 @@ fn grid(path: &Path) -> Result<Grid> {
     let table = table.split("\n\n").next().unwrap_or_default();
     // Lines keep their numbers.
     Grid::parse(("\n".repeat(before.matches('\n').count() + 1) + table).as_bytes(), None)
-}
-
-fn key(name: &str) -> String {
-    name.trim().to_lowercase()
 }

@@ -18,13 +18,7 @@ const TIME_STEP_MS: usize = 61;
 const PEAK: usize = 63;
 /// Codes in place of an azimuth of a component that points up or down, or is vertical.
 const VERTICAL: RangeInclusive<f64> = 400.0..=402.0;
-/// Relative rounding of the peak.
-const PEAK_ROUNDING: f64 = 1e-4;
 const MS_PER_S: f64 = 1000.0;
-
-pub fn recognises(lines: &[&str]) -> bool {
-    lines.first().is_some_and(|line| after(line, "(format v").is_some())
-}
 
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<Vec<RecordedMotion>> {
     let mut motions = Vec::new();
@@ -66,7 +60,11 @@ fn block(lines: &[&str], at: &mut usize) -> Result<Vec<f64>> {
     let (count, (on_line, width)) = count.zip(layout(text)).ok_or(missing)?;
     let extent = (count / on_line as f64).ceil() as usize;
     let start = std::mem::replace(at, lines.len().min(at.saturating_add(extent)));
-    samples(&lines[..*at], start, count, |line| fields(line, width))
+    samples(&lines[..*at], start, count, |line| {
+        // A letter beyond ASCII is in no number.
+        let fields = line.trim_end().as_bytes().chunks(width);
+        fields.map(move |field| std::str::from_utf8(field).unwrap_or(line).trim())
+    })
 }
 
 /// Reads how many numbers are on a line, and their width, in `Format= (5F15.6)`.
@@ -76,12 +74,6 @@ fn layout(text: &str) -> Option<(usize, usize)> {
     let width = width.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()?;
     let on_line: usize = if on_line.trim().is_empty() { 1 } else { on_line.trim().parse().ok()? };
     (on_line > 0 && width > 0).then_some((on_line, width))
-}
-
-/// Splits a line into fields of one width; the last may be shorter. A letter beyond ASCII is in no number.
-fn fields(line: &str, width: usize) -> impl Iterator<Item = &str> {
-    let fields = line.trim_end().as_bytes().chunks(width);
-    fields.map(move |field| std::str::from_utf8(field).unwrap_or(line).trim())
 }
 
 #[derive(Default)]
@@ -113,8 +105,7 @@ impl Channel<'_> {
             ..Origin::default()
         };
         let peak = self.reals.get(PEAK).filter(|peak| peak.abs() != 999.0 && **peak != 0.0);
-        let header_pga = peak.map(|peak| peak.abs() * unit.si);
-        let header_pga = header_pga.map(|m_s2| HeaderPga { m_s2, rounding_m_s2: PEAK_ROUNDING * m_s2 });
+        let header_pga = peak.map(|peak| HeaderPga { m_s2: peak.abs() * unit.si, rounding_m_s2: 0.0 });
         RecordedMotion { header_pga, ..RecordedMotion::new(dt_s, values, unit, origin) }
     }
 }

@@ -12,14 +12,6 @@ use crate::inputs::{Grid, Heading, InputError, Result};
 const HOUR_S: f64 = 3600.0;
 /// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
-/// Beginnings of words for quantities.
-const QUANTITIES: [(&str, Quantity); 4] = [
-    ("acc", Quantity::Acceleration),
-    ("time", Quantity::Time),
-    ("vel", Quantity::Velocity),
-    ("dis", Quantity::Length),
-];
-
 /// Beginnings of words for horizontal components without an azimuth, which their first letters name, too.
 const HORIZONTAL: [&str; 3] = ["long", "tran", "rad"];
 
@@ -128,10 +120,8 @@ impl Samples<'_> {
         cells: Vec<(usize, usize)>,
         step: Option<f64>,
     ) -> Result<RecordedMotion> {
-        let mut samples = cells
-            .iter()
-            .map(|(row, column)| self.grid.number(*row, *column))
-            .collect::<Result<Vec<f64>>>()?;
+        let number = |(row, column): &(usize, usize)| self.grid.number(*row, *column);
+        let mut samples = cells.iter().map(number).collect::<Result<Vec<f64>>>()?;
         let (above, step_above) = self.above(&samples, &cells, step);
         if samples.len() < above + 2 {
             return Err(InputError::Count { announced: 2, found: samples.len() - above });
@@ -183,9 +173,7 @@ impl Samples<'_> {
             });
         }
         let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let mut ordered = steps.clone();
-        ordered.sort_by(f64::total_cmp);
-        let usual = given.or(ordered.get(ordered.len() / 2).copied()).unwrap_or_default();
+        let usual = given.or(steps.first().copied()).unwrap_or_default();
         // A given step that the decimals cannot represent is off by half a unit of the last one at each end.
         let decimals = grid.rows().map(|row| decimals_of(grid.cell(row, column))).max().unwrap_or(0);
         let last_digit = in_s * 10f64.powi(-(decimals.min(300) as i32));
@@ -266,8 +254,11 @@ fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
 fn quantity(heading: &Heading) -> Option<Quantity> {
     let named = heading.name.split('-').find_map(|word| match word {
         "a" | "ag" => Some(Quantity::Acceleration),
-        _ if word.ends_with("time") => Some(Quantity::Time),
-        _ => QUANTITIES.iter().find(|(start, _)| word.starts_with(start)).map(|(_, quantity)| *quantity),
+        _ if word.starts_with("acc") => Some(Quantity::Acceleration),
+        _ if word.starts_with("time") || word.ends_with("time") => Some(Quantity::Time),
+        _ if word.starts_with("vel") => Some(Quantity::Velocity),
+        _ if word.starts_with("dis") => Some(Quantity::Length),
+        _ => None,
     });
     named.or(heading.unit.map(|unit| unit.quantity))
 }
@@ -337,7 +328,7 @@ fn noted_step(notes: &[String]) -> Option<f64> {
             is_named || name.contains("sampl") && is_measure
         });
         let (cell, name) = of_samples?;
-        let value = number(cell).or_else(|| notes.get(at + 1)?.trim().parse().ok());
+        let value = number(cell).or_else(|| notes.get(at + 1)?.trim_matches(['#', ' ']).parse().ok());
         let value = value.filter(|value| *value > 0.0)?;
         let unit = Heading::new(cell).unit.filter(|unit| unit.quantity == Quantity::Time);
         Some(if is_rate(&name) { value.recip() } else { value * unit.map_or(1.0, |unit| unit.si) })

@@ -14,10 +14,6 @@ use crate::inputs::{InputError, Result};
 /// Largest number of header lines.
 const HEADER: usize = 200;
 
-pub fn is_knet(lines: &[&str]) -> bool {
-    lines.first().is_some_and(|line| line.trim_start().starts_with("Origin Time"))
-}
-
 pub fn is_esm(lines: &[&str]) -> bool {
     !field(esm_header(lines), "SAMPLING_INTERVAL_S:").text.is_empty()
 }
@@ -44,10 +40,12 @@ pub fn knet(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let unit = unit_of(Field { line, text: "gal" }, options)?;
     let direction = field(header, "Dir.").text;
     // KiK-net numbers the directions in the borehole 1 to 3, those at the surface 4 to 6.
-    let number_of = direction.parse().ok().filter(|number: &usize| (1..=6).contains(number));
-    let component = number_of.map_or(direction, |number| ["N-S", "E-W", "U-D"][(number - 1) % 3]);
-    let is_in_borehole = number_of.is_some_and(|number| number <= 3);
-    let place = number_of.map_or("", |_| if is_in_borehole { " borehole" } else { " surface" });
+    let (component, place) = match direction.parse() {
+        Ok(number @ 1..=6) => {
+            (["N-S", "E-W", "U-D"][(number - 1) % 3], if number <= 3 { " borehole" } else { " surface" })
+        }
+        _ => (direction, ""),
+    };
     let origin = Origin {
         earthquake: label(header, &["Origin Time"]),
         mw: number(field(header, "Mag.").text),
@@ -57,7 +55,7 @@ pub fn knet(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
         re_km: None,
     };
     Ok(RecordedMotion {
-        is_in_borehole,
+        is_in_borehole: place == " borehole",
         header_pga: header_pga(field(header, "Max. Acc. (gal)").text, unit.si),
         ..RecordedMotion::new(dt_s, gal, unit, origin)
     })

@@ -61,11 +61,12 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
+    let first = lines.first().map_or("", |line| line.trim_start());
     let recognises = |format: &RecordFormat| match format {
-        RecordFormat::Cosmos => cosmos::recognises(&lines),
-        RecordFormat::Knet => keyed::is_knet(&lines),
+        RecordFormat::Cosmos => header::after(first, "(format v").is_some(),
+        RecordFormat::Knet => first.starts_with("Origin Time"),
         RecordFormat::Esm => keyed::is_esm(&lines),
-        RecordFormat::PeerAt2 => peer_at2::recognises(&lines),
+        RecordFormat::PeerAt2 => peer_at2::line_of_counts(&lines).is_some(),
         RecordFormat::Csv => true,
     };
     let recognised = RecordFormat::VARIANTS.iter().copied().find(recognises);

@@ -13,12 +13,8 @@ use crate::inputs::{InputError, Result, plain_number};
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
-pub fn recognises(lines: &[&str]) -> bool {
-    line_of_counts(lines).is_some()
-}
-
 /// Finds the line with NPTS (or NPT) and DT, or with numbers alone below the unit.
-fn line_of_counts(lines: &[&str]) -> Option<usize> {
+pub fn line_of_counts(lines: &[&str]) -> Option<usize> {
     let header = &lines[..lines.len().min(HEADER)];
     let named = header.iter().position(|line| after(line, "NPT").is_some());
     let are_counts =
