@@ -237,14 +237,14 @@ fn names(note: &str, columns: usize) -> Option<Vec<Heading>> {
 /// where no heading says it, unless its numbers count the samples.
 fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
     let mut quantities: Vec<Option<Quantity>> = grid.headings.iter().map(quantity).collect();
-    for at in 0..quantities.len() {
-        if quantities.len() > 1 && quantities[at].is_none() && !quantities.contains(&Some(Quantity::Time)) {
-            let numbers = grid.numbers(at).unwrap_or_default();
-            let rises = numbers.len() > 1 && numbers.is_sorted_by(|time, next| time < next);
-            let counts = rises && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
-            let is_time = rises || clock_s(grid.cell(0, at)).is_some();
-            let of = if counts { Quantity::Counts } else { Quantity::Time };
-            quantities[at] = Some(of).filter(|_| is_time);
+    let mut is_timed = quantities.len() < 2 || quantities.contains(&Some(Quantity::Time));
+    for (at, quantity) in quantities.iter_mut().enumerate().filter(|(_, known)| known.is_none()) {
+        let numbers = if is_timed { Vec::new() } else { grid.numbers(at).unwrap_or_default() };
+        let rises = numbers.len() > 1 && numbers.is_sorted_by(|time, next| time < next);
+        if rises && numbers.windows(2).all(|pair| pair[1] - pair[0] == 1.0) {
+            *quantity = Some(Quantity::Counts);
+        } else if rises || !is_timed && clock_s(grid.cell(0, at)).is_some() {
+            (*quantity, is_timed) = (Some(Quantity::Time), true);
         }
     }
     quantities
