@@ -28,57 +28,55 @@ impl About {
     }
 
     fn from_grid(path: &Path, grid: &Grid) -> Result<About> {
-        let [magnitude, distance, earthquake, number] =
-            ["magnitude", "distance", "earthquake", "record-number"].map(|meaning| grid.about(meaning));
-        let files = grid.headings.iter().enumerate().filter(|(_, Heading { name, .. })| {
+        let named = ["magnitude", "distance", "earthquake", "record-number"];
+        let columns = named.map(|meaning| grid.about(meaning));
+        let [magnitude, distance, earthquake, number] = columns;
+        let is_file = |Heading { name, .. }: &Heading| {
             name.replace('-', "").contains("filename") || means(name, "record")
-        });
-        let files: Vec<usize> = files.map(|(at, _)| at).collect();
-        let columns = [magnitude, distance, earthquake];
-        if files.is_empty() && number.is_none() || columns == [None; 3] {
+        };
+        let files: Vec<usize> = (0..grid.headings.len()).filter(|at| is_file(&grid.headings[*at])).collect();
+        if files.is_empty() && number.is_none() || columns[..3] == [None; 3] {
             let expected = "a column 'file' or 'name', and 'magnitude', 'distance' or 'earthquake'";
             return Err(InputError::unexpected(grid.found(), expected));
         }
-        if let Some(heading) = distance.map(|at| &grid.headings[at])
-            && heading.unit.is_some_and(|unit| unit.name != "km")
+        if let Some(Heading { text, unit: Some(unit), .. }) = distance.map(|at| &grid.headings[at])
+            && unit.name != "km"
         {
-            return Err(InputError::unexpected(format!("column '{}'", heading.text), "km"));
+            return Err(InputError::unexpected(format!("column '{text}'"), "km"));
         }
-        let mw = grid.known(magnitude, "mw")?;
-        let re_km = grid.known(distance, "re_km")?;
-        let mut all = HashMap::new();
+        let (mw, re_km) = (grid.known(magnitude, "mw")?, grid.known(distance, "re_km")?);
+        let mut known = HashMap::new();
         for (row, line) in grid.lines.iter().enumerate() {
             let earthquake = earthquake.and_then(|at| grid.value(row, at)).map(str::to_string);
-            let known = Origin { mw: mw[row], re_km: re_km[row], earthquake, ..Origin::default() };
-            let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next().map(key));
+            let origin = Origin { mw: mw[row], re_km: re_km[row], earthquake, ..Origin::default() };
+            let names = files.iter().filter_map(|at| grid.cell(row, *at).rsplit(['/', '\\']).next());
+            let names = names.map(str::to_lowercase);
             let names = names.filter(|name| name.contains(char::is_alphanumeric) && name != "-999");
             // Some programs write 6.0 for 6.
             let number = number.map(|at| format!("rsn{}", grid.cell(row, at).trim_end_matches(".0")));
             for name in names.chain(number) {
-                if all.insert(name.clone(), known.clone()).is_some_and(|before| before != known) {
+                if known.insert(name.clone(), origin.clone()).is_some_and(|before| before != origin) {
                     let found = format!("line {line}: {name} again, with other values");
                     return Err(InputError::unexpected(found, "one row of each record"));
                 }
             }
         }
-        let named = ["magnitude", "distance", "earthquake", "record number"].into_iter();
-        let named: Vec<_> = named.zip(columns.into_iter().chain([number])).collect();
-        let meaning = |at: usize| match named.iter().find(|(_, column)| *column == Some(at)) {
-            Some((name, _)) => Meaning::Known(name.to_string()),
+        let meaning = |at| match columns.iter().position(|column| *column == Some(at)) {
+            Some(of) => Meaning::Known(named[of].replace('-', " ")),
             None if files.contains(&at) => Meaning::Known("file".to_string()),
             None if grid.is_text(at) => Meaning::Kept,
             None => Meaning::NotUnderstood,
         };
         let meanings = (0..grid.headings.len()).map(meaning).collect();
-        Ok(About { known: all, reading: grid.reading(path, meanings) })
+        Ok(About { known, reading: grid.reading(path, meanings) })
     }
 
     pub fn get(&self, file: &Path) -> Option<&Origin> {
-        let [name, stem] = [file.file_name()?, file.file_stem()?].map(|name| name.to_str().map(key));
+        let [name, stem] =
+            [file.file_name()?, file.file_stem()?].map(|name| name.to_string_lossy().to_lowercase());
         // RSN6_IMPVALL.I_I-ELC180.AT2
-        let number = stem.as_deref().and_then(|stem| stem.split('_').next());
-        let number = number.filter(|word| word.starts_with("rsn")).map(str::to_string);
-        [name, stem, number].into_iter().flatten().find_map(|name| self.known.get(&name))
+        let number = stem.split('_').next().filter(|word| word.starts_with("rsn"));
+        [&*name, &stem].into_iter().chain(number).find_map(|name| self.known.get(name))
     }
 }
 
@@ -92,8 +90,4 @@ fn grid(path: &Path) -> Result<Grid> {
     let table = table.split("\n\n").next().unwrap_or_default();
     // Lines keep their numbers.
     Grid::parse(("\n".repeat(before.matches('\n').count() + 1) + table).as_bytes(), None)
-}
-
-fn key(name: &str) -> String {
-    name.trim().to_lowercase()
 }

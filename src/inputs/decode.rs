@@ -55,14 +55,11 @@ fn encoding(bytes: &[u8]) -> Result<&'static Encoding> {
         return Ok(encoding);
     }
     let start = &bytes[..bytes.len().min(4096)];
-    let [even, odd] =
-        [0, 1].map(|from| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count());
-    let most = start.len() / 5;
-    if odd > most && even < odd / 10 {
-        return Ok(UTF_16LE);
-    }
-    if even > most && odd < even / 10 {
-        return Ok(UTF_16BE);
+    let zeros = |from| start.iter().skip(from).step_by(2).filter(|byte| **byte == 0).count();
+    match (zeros(0), zeros(1)) {
+        (even, odd) if odd > start.len() / 5 && even < odd / 10 => return Ok(UTF_16LE),
+        (even, odd) if even > start.len() / 5 && odd < even / 10 => return Ok(UTF_16BE),
+        _ => {}
     }
     // Some real headers are padded with null bytes.
     if start.iter().filter(|byte| **byte < b'\t').count() > start.len() / 50 {
@@ -80,11 +77,9 @@ fn encoding(bytes: &[u8]) -> Result<&'static Encoding> {
     }
     let letters = read.chars().filter(|sign| sign.is_alphabetic() && !sign.is_ascii());
     let is_latin = letters.clone().all(|letter| letter < '\u{250}');
-    match guess == SHIFT_JIS || read == western || !is_latin && letters.count() > TELLING {
-        true => Ok(guess),
-        false => {
-            let found = format!("a text that may be {}, or not", guess.name());
-            Err(InputError::unexpected(found, "UTF-8: save it as CSV UTF-8"))
-        }
+    if guess == SHIFT_JIS || read == western || !is_latin && letters.count() > TELLING {
+        return Ok(guess);
     }
+    let found = format!("a text that may be {}, or not", guess.name());
+    Err(InputError::unexpected(found, "UTF-8: save it as CSV UTF-8"))
 }

@@ -32,78 +32,61 @@ pub struct Member {
     pub bytes: Vec<u8>,
 }
 
-/// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
-pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>> {
-    unpack_up_to(usize::MAX, bytes)
-}
-
 /// Returns the only file in an archive, or the bytes themselves, unpacked.
 pub fn unpack_one(bytes: Vec<u8>) -> Result<Vec<u8>> {
-    let only = unpack_up_to(1, bytes)?.pop();
-    only.map(|member| member.bytes).ok_or(InputError::Members { found: Vec::new() })
+    match <[Member; 1]>::try_from(unpack(bytes)?) {
+        Ok([only]) => Ok(only.bytes),
+        Err(all) => Err(InputError::Members { found: all.into_iter().filter_map(|one| one.name).collect() }),
+    }
 }
 
-fn unpack_up_to(most: usize, bytes: Vec<u8>) -> Result<Vec<Member>> {
-    let mut left = LARGEST;
-    let mut members = Vec::new();
-    if bytes.starts_with(b"\xd0\xcf\x11\xe0") {
-        expect_workbook(&String::from_utf8_lossy(&bytes))?;
-    }
-    let is_archive = bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06");
-    let zipped = if is_archive { zipped(&bytes, most, &mut left)? } else { None };
-    for Member { name, mut bytes } in zipped.unwrap_or_else(|| vec![Member { name: None, bytes }]) {
+/// Returns the files in an archive, or the bytes themselves, unpacked. A workbook stays as it is.
+pub fn unpack(bytes: Vec<u8>) -> Result<Vec<Member>> {
+    let (mut left, mut members) = (LARGEST, Vec::new());
+    let mut packed = vec![Member { name: None, bytes }];
+    while let Some(Member { name, bytes }) = packed.pop() {
         if bytes.starts_with(b"\x1f\x8b") {
-            bytes = read(MultiGzDecoder::new(bytes.as_slice()), &mut left)?;
-        }
-        match bytes.get(257..262) {
-            Some(b"ustar") => members.extend(tarred(&bytes, &mut left)?),
-            _ => members.push(Member { name, bytes }),
-        }
-    }
-    expect_few(most, members.iter().filter_map(|one| one.name.as_ref()))?;
-    Ok(members)
-}
-
-fn expect_few<'a>(most: usize, names: impl Iterator<Item = &'a String>) -> Result<()> {
-    let found: Vec<String> = names.cloned().collect();
-    if found.len() > most { Err(InputError::Members { found }) } else { Ok(()) }
-}
-
-/// Reads the files of a zip archive; none of a workbook, whose parts must be small all the same.
-fn zipped(bytes: &[u8], most: usize, left: &mut u64) -> Result<Option<Vec<Member>>> {
-    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
-    let is_workbook = archive.file_names().any(|name| matches!(name, "[Content_Types].xml" | "mimetype"));
-    let names = (0..archive.len()).filter_map(|at| Some((archive.name_for_index(at)?.to_string(), at)));
-    let is_file = |name: &str| match is_workbook {
-        true => !name.split('/').any(|part| matches!(part, "media" | "Pictures")),
-        false => is_meant(name),
-    };
-    let mut files: Vec<(String, usize)> = names.filter(|(name, _)| is_file(name)).collect();
-    files.sort();
-    expect_few(if is_workbook { usize::MAX } else { most }, files.iter().map(|(name, _)| name))?;
-    let mut members = Vec::new();
-    for (name, at) in files {
-        expect_workbook(&name)?;
-        let bytes = read(archive.by_index(at).map_err(InputError::damaged)?, left)?;
-        match is_workbook {
-            true => expect_true_counts(&bytes)?,
-            false => members.push(Member { name: Some(name), bytes }),
-        }
-    }
-    Ok((!is_workbook).then_some(members))
-}
-
-fn tarred(bytes: &[u8], left: &mut u64) -> Result<Vec<Member>> {
-    let mut members = Vec::new();
-    for entry in tar::Archive::new(bytes).entries().map_err(InputError::damaged)? {
-        let entry = entry.map_err(InputError::damaged)?;
-        let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
-        if entry.header().entry_type().is_file() && is_meant(&name) {
-            members.push(Member { bytes: read(entry, left)?, name: Some(name) });
+            packed.push(Member { name, bytes: read(MultiGzDecoder::new(bytes.as_slice()), &mut left)? });
+        } else if bytes.get(257..262) == Some(b"ustar") {
+            for entry in tar::Archive::new(bytes.as_slice()).entries().map_err(InputError::damaged)? {
+                let entry = entry.map_err(InputError::damaged)?;
+                let name = String::from_utf8_lossy(&entry.path_bytes()).into_owned();
+                if entry.header().entry_type().is_file() && is_meant(&name) {
+                    packed.push(Member { bytes: read(entry, &mut left)?, name: Some(name) });
+                }
+            }
+        } else if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
+            match zipped(&bytes, &mut left)? {
+                Some(files) => packed.extend(files),
+                None => members.push(Member { name, bytes }),
+            }
+        } else {
+            if bytes.starts_with(b"\xd0\xcf\x11\xe0") {
+                expect_workbook(&String::from_utf8_lossy(&bytes))?;
+            }
+            members.push(Member { name, bytes });
         }
     }
     members.sort_by(|one, other| one.name.cmp(&other.name));
     Ok(members)
+}
+
+/// Reads the files of a zip archive; none of a workbook, whose parts must be small all the same.
+fn zipped(bytes: &[u8], left: &mut u64) -> Result<Option<Vec<Member>>> {
+    let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
+    let is_workbook = archive.file_names().any(|name| matches!(name, "[Content_Types].xml" | "mimetype"));
+    let mut files = Vec::new();
+    for at in 0..archive.len() {
+        let file = archive.by_index(at).map_err(InputError::damaged)?;
+        let name = file.name().to_string();
+        expect_workbook(&name)?;
+        if is_workbook && !name.split('/').any(|part| matches!(part, "media" | "Pictures")) {
+            expect_true_counts(&read(file, left)?)?;
+        } else if !is_workbook && is_meant(&name) {
+            files.push(Member { bytes: read(file, left)?, name: Some(name) });
+        }
+    }
+    Ok((!is_workbook).then_some(files))
 }
 
 /// Whether a name in an archive is that of a file which no system has added.
@@ -132,13 +115,10 @@ fn expect_workbook(text: &str) -> Result<()> {
 fn expect_true_counts(part: &[u8]) -> Result<()> {
     let text = String::from_utf8_lossy(part);
     expect_workbook(&text)?;
-    for name in [" uniqueCount=", " si="] {
-        for (at, _) in text.match_indices(name) {
-            let value = text[at + name.len()..].trim_start_matches(['"', '\'']);
-            let digits = value.split(|sign: char| !sign.is_ascii_digit()).next().unwrap_or_default();
-            if digits.parse().is_ok_and(|count: usize| count > part.len() / LEAST_ENTRY) {
-                return Err(InputError::damaged(format!("{}{digits}", name.trim())));
-            }
+    let values = [" uniqueCount=", " si="].into_iter().flat_map(|name| text.split(name).skip(1));
+    for value in values.filter_map(|rest| rest.get(1..)?.split(['"', '\'']).next()) {
+        if value.parse().is_ok_and(|count: usize| count > part.len() / LEAST_ENTRY) {
+            return Err(InputError::damaged(format!("a count of {value}")));
         }
     }
     Ok(())

@@ -75,7 +75,7 @@ fn what_is_wrong_is_refused_for_its_reason() {
         // Contradictory units, unknown units, and units of other quantities.
         (csv("time,acc_cm_s2", 0.01), "unit=g", "Contradiction { line: 2, field: \"unit\""),
         (csv("time,acc", G), "", "Missing { line: 2, field: \"unit\""),
-        (csv("time,acc (furlong)", G), "", "Value { line: 2, field: \"unit\", found: \"acc (furlong)"),
+        (csv("time,acc (furlong)", G), "", "Missing { line: 2, field: \"unit\""),
         (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
         (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
         (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),

@@ -10,17 +10,14 @@ use crate::inputs::{InputError, Result, plain_number};
 const SAME_STEP: f64 = 0.01;
 /// What is expected of a unit.
 const ACCELERATION: &str = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
-/// The longest time step of a record, s.
-const LONGEST_STEP_S: f64 = 10.0;
 
 /// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
 pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64> {
     let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
     let missing = InputError::Missing { line, field: "time step", expected };
     let dt_s = found.or(options.dt_s).ok_or(missing)?;
-    if !(dt_s > 0.0 && dt_s <= LONGEST_STEP_S) {
-        let (found, expected) = (format!("{dt_s} s"), "one above 0 s and up to 10 s");
-        return Err(InputError::value(line, "time step", &found, expected));
+    if dt_s <= 0.0 {
+        return Err(InputError::value(line, "time step", &format!("{dt_s} s"), "one above 0 s"));
     }
     expect_step(options.dt_s, dt_s, line)
 }
@@ -33,11 +30,11 @@ pub fn expect_step(given: Option<f64>, dt_s: f64, line: usize) -> Result<f64> {
     })
 }
 
-/// Returns the unit at the start of a text, after which more may follow, else the given one; see [`unit`].
-pub fn unit_of(text: Option<&str>, options: &ReadOptions, line: usize) -> Result<Unit> {
+/// Returns the unit at the start of a field, after which more may follow, else the given one; see [`unit`].
+pub fn unit_of(Field { line, text }: Field, options: &ReadOptions) -> Result<Unit> {
     let ends = |c: char| c.is_whitespace() || matches!(c, ',' | '(' | ')' | ';');
-    let found = text.map(|text| {
-        let unit = text.trim_start().split(ends).next().and_then(Unit::parse);
+    let found = Some(text).filter(|text| !text.is_empty()).map(|text| {
+        let unit = text.split(ends).next().and_then(Unit::parse);
         unit.ok_or_else(|| InputError::value(line, "unit", text, ACCELERATION))
     });
     unit(found.transpose()?, options, line)
@@ -57,22 +54,31 @@ pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<U
     })
 }
 
-/// Finds the value of a key at the start of a line, with the number of the line.
-pub fn field<'a>(header: &[&'a str], key: &str) -> Option<(usize, &'a str)> {
-    let values = header.iter().map(|line| line.trim_start().strip_prefix(key).unwrap_or_default().trim());
-    (1..).zip(values).find(|(_, value)| !value.is_empty())
+/// The text behind a key, and the number of its line.
+#[derive(Clone, Copy)]
+pub struct Field<'a> {
+    pub line: usize,
+    pub text: &'a str,
 }
 
-pub fn number_field(header: &[&str], key: &str) -> Option<(usize, f64)> {
-    field(header, key).and_then(|(line, value)| Some((line, leading_number(value)?)))
+/// Finds the first line with text behind a key; without text, and on the last line, where there is none.
+pub fn field<'a>(header: &[&'a str], key: &str) -> Field<'a> {
+    let texts = header.iter().map(|line| after(line, key).unwrap_or_default().trim());
+    let (line, text) = (1..).zip(texts).find(|(_, text)| !text.is_empty()).unwrap_or((header.len(), ""));
+    Field { line, text }
 }
 
-/// Reads the peak acceleration at the start of a text, in a unit of so many m/s2.
+/// Joins the texts behind keys.
+pub fn label(header: &[&str], keys: &[&str]) -> Option<String> {
+    let texts: Vec<&str> = keys.iter().map(|key| field(header, key).text).collect();
+    single_spaced(&texts.join(" "))
+}
+
+/// Reads the peak acceleration in a text, in a unit of so many m/s2.
 pub fn header_pga(text: &str, unit_m_s2: f64) -> Option<HeaderPga> {
-    let value = leading_number(text)?.abs();
-    let digits =
-        text.trim_start().split(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '+' | '-'))).next()?;
-    let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len().min(300));
+    let value = number(text)?.abs();
+    let decimals = text.split_once('.').map_or("", |(_, rest)| rest);
+    let decimals = decimals.bytes().take_while(u8::is_ascii_digit).take(300).count();
     let rounding = 0.5 * 10f64.powi(-(decimals as i32));
     (value > 0.0).then_some(HeaderPga { m_s2: value * unit_m_s2, rounding_m_s2: rounding * unit_m_s2 })
 }
@@ -101,17 +107,13 @@ pub fn single_spaced(text: &str) -> Option<String> {
     (!words.is_empty()).then_some(words)
 }
 
-/// Reads the number at the start of a text; letters may follow directly (`100Hz`).
-pub fn leading_number(text: &str) -> Option<f64> {
-    let text = text.trim_start();
-    let end =
-        text.find(|c: char| !c.is_ascii_digit() && !"+-.eEdD".contains(c)).unwrap_or(text.len()).min(40);
-    (1..=end).rev().find_map(|end| plain_number(&text[..end]))
-}
-
-pub fn first_number(text: &str) -> Option<f64> {
+/// Reads the first number in a text; letters may follow directly (`100Hz`).
+pub fn number(text: &str) -> Option<f64> {
     let starts = text.match_indices(|c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.'));
-    starts.map(|(at, _)| &text[at..]).find_map(leading_number)
+    starts.map(|(at, _)| &text[at..]).find_map(|text| {
+        let end = text.find(|c: char| !c.is_ascii_digit() && !"+-.eEdD".contains(c)).unwrap_or(text.len());
+        (1..=end.min(40)).rev().find_map(|end| plain_number(&text[..end]))
+    })
 }
 
 /// Splits a line into numbers: at blanks, and before a sign that Fortran left no room to separate.

@@ -3,17 +3,15 @@
 //! ```text
 //! peer_at2  PEER's AT2, old and NGA
 //! cosmos    COSMOS V1 and V2
-//! esm       Engineering Strong Motion database
-//! knet      K-NET and KiK-net
+//! keyed     lines of key and value: K-NET, KiK-net, Engineering Strong Motion database
 //! csv       columns of a table, with or without times
 //! header    fields and blocks of numbers, common to several formats
 //! ```
 
 mod cosmos;
 mod csv;
-mod esm;
 mod header;
-mod knet;
+mod keyed;
 mod peer_at2;
 
 use std::borrow::Cow;
@@ -63,19 +61,20 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     // A workbook.
     let text = if bytes.starts_with(b"PK") { Cow::Borrowed("") } else { decode(bytes)? };
     let lines: Vec<&str> = text.lines().map(|line| line.trim_end_matches(['\x1a', '\0'])).collect();
+    let first = lines.first().map_or("", |line| line.trim_start());
     let recognises = |format: &RecordFormat| match format {
-        RecordFormat::Cosmos => cosmos::recognises(&lines),
-        RecordFormat::Knet => knet::recognises(&lines),
-        RecordFormat::Esm => esm::recognises(&lines),
-        RecordFormat::PeerAt2 => peer_at2::recognises(&lines),
+        RecordFormat::Cosmos => header::after(first, "(format v").is_some(),
+        RecordFormat::Knet => first.starts_with("Origin Time"),
+        RecordFormat::Esm => keyed::is_esm(&lines),
+        RecordFormat::PeerAt2 => peer_at2::line_of_counts(&lines).is_some(),
         RecordFormat::Csv => true,
     };
     let recognised = RecordFormat::VARIANTS.iter().copied().find(recognises);
     let format = options.format.or(recognised).unwrap_or(RecordFormat::Csv);
     let mut motions = match format {
         RecordFormat::Cosmos => cosmos::parse(&lines, options)?,
-        RecordFormat::Knet => vec![knet::parse(&lines, options)?],
-        RecordFormat::Esm => vec![esm::parse(&lines, options)?],
+        RecordFormat::Knet => vec![keyed::knet(&lines, options)?],
+        RecordFormat::Esm => vec![keyed::esm(&lines, options)?],
         RecordFormat::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
         RecordFormat::Csv => csv::parse(bytes, options)?,
     };

@@ -6,66 +6,62 @@ use rockfrag_core::units::G_M_S2;
 
 use super::ReadOptions;
 use super::header::{
-    after, azimuth_of, first_number, header_pga, leading_number, numbers, samples, single_spaced, time_step,
-    unit_of,
+    Field, after, azimuth_of, field, header_pga, number, numbers, samples, single_spaced, time_step, unit_of,
 };
-use crate::inputs::{InputError, Result};
+use crate::inputs::{InputError, Result, plain_number};
 
 /// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
-pub fn recognises(lines: &[&str]) -> bool {
-    line_of_counts(lines).is_some()
-}
-
 /// Finds the line with NPTS (or NPT) and DT, or with numbers alone below the unit.
-fn line_of_counts(lines: &[&str]) -> Option<usize> {
+pub fn line_of_counts(lines: &[&str]) -> Option<usize> {
     let header = &lines[..lines.len().min(HEADER)];
     let named = header.iter().position(|line| after(line, "NPT").is_some());
-    let unit = header.iter().position(|line| unit_words(line).is_some());
-    named.or(unit.map(|at| at + 1).filter(|at| header.get(*at).is_some_and(|line| are_counts(line))))
+    let are_counts =
+        |line| matches!(counts(line), [Some(count), Some(_)] if count > 1.0 && count.fract() == 0.0);
+    named.or(unit_field(header).map(|unit| unit.line).filter(|at| header.get(*at).is_some_and(are_counts)))
 }
 
-/// Whether a line has a number of samples, a time step, perhaps a third number, and nothing else.
-fn are_counts(line: &str) -> bool {
-    let words: Vec<&str> = line.split_ascii_whitespace().collect();
-    let is_count = |word: &&str| word.trim_end_matches(".0").parse().is_ok_and(|count: usize| count > 1);
-    matches!(words.len(), 2 | 3)
-        && is_count(&words[0])
-        && words.iter().all(|word| word.parse::<f64>().is_ok())
+/// Reads the number of samples and the time step: by name, or in order in the oldest files (`4000 .0050 NPTS,
+/// DT`).
+fn counts(line: &&str) -> [Option<f64>; 2] {
+    let mut unnamed = line.split_ascii_whitespace().map_while(plain_number).fuse();
+    let named = |key| after(line, key).and_then(number);
+    [("NPT", unnamed.next()), ("DT", unnamed.next())].map(|(key, unnamed)| named(key).or(unnamed))
+}
+
+/// Finds the text behind what announces a unit: `IN UNITS OF G`, `Accelerations (g)`.
+fn unit_field<'a>(header: &[&'a str]) -> Option<Field<'a>> {
+    let is_alone = |line: &str| line.get(..5).is_some_and(|start| start.eq_ignore_ascii_case("accel"));
+    header.iter().zip(1..).find_map(|(text, line)| {
+        let text = after(text, "UNITS OF").or(after(text, "(").filter(|_| is_alone(text.trim_start())))?;
+        Some(Field { text: text.trim(), line })
+    })
 }
 
 pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let missing = |line, field, expected| InputError::Missing { line, field, expected };
     let at = line_of_counts(lines).ok_or(missing(4, "NPTS", "a line such as 'NPTS= 7818, DT= .0050 SEC'"))?;
-    let (header, counts) = (&lines[..at], lines[at]);
+    let header = &lines[..at];
     // Below the database and the record.
     let mut others = header.iter().zip(1..).skip(2);
     let is_other = |text: &str| after(text, "VELOCITY").or(after(text, "DISPLACEMENT")).is_some();
     if let Some((text, line)) = others.find(|(text, _)| is_other(text)) {
         return Err(InputError::NotAcceleration { line, found: text.trim().to_string() });
     }
-    let (unit, line) =
-        header.iter().zip(1..).find_map(|(line, number)| Some((unit_words(line)?, number))).unzip();
-    let unit = unit_of(unit, options, line.unwrap_or(3))?;
-    // By name, or in order in the oldest files (`4000 .0050 NPTS, DT`).
-    let mut unnamed = counts.split_ascii_whitespace().map_while(leading_number).fuse();
-    let (first, second) = (unnamed.next(), unnamed.next());
-    let announced = named(counts, "NPT").or(first).ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
-    let dt_s = time_step(named(counts, "DT").or(second), options, at + 1)?;
+    let unit = unit_of(unit_field(header).unwrap_or(Field { line: 3, text: "" }), options)?;
+    let [announced, step] = counts(&lines[at]);
+    let announced = announced.ok_or(missing(at + 1, "NPTS", "the number of samples"))?;
+    let dt_s = time_step(step, options, at + 1)?;
     let values = samples(lines, at + 1, announced, numbers)?;
 
     // Event, date, station and component, separated by commas; only the date has none inside.
-    let title: Vec<&str> = header.get(1).map_or("", |line| line).split(',').map(str::trim).collect();
-    let (before, component) = match title.split_last() {
-        Some((component, before)) if !before.is_empty() => (before, *component),
-        _ => (&title[..], ""),
-    };
+    let title = header.get(1).copied().unwrap_or_default();
+    let (before, component) = title.rsplit_once(',').unwrap_or((title, ""));
+    let before: Vec<&str> = before.split(',').map(str::trim).collect();
     let is_date = |part: &&str| part.contains('/') && !part.contains(|c: char| c.is_ascii_alphabetic());
-    let date = before.iter().position(is_date);
-    let event_parts = date.map_or(1, |date| date + 1).min(before.len());
-    let (event, station) = before.split_at(event_parts);
-    let pga = header.iter().find_map(|line| after(line, "PGA"));
+    let date = before.iter().position(is_date).unwrap_or(0);
+    let (event, station) = before.split_at(date + 1);
     let origin = Origin {
         azimuth_deg: azimuth_of(component),
         earthquake: single_spaced(&event.join(", ")),
@@ -74,19 +70,7 @@ pub fn parse(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
         ..Origin::default()
     };
     Ok(RecordedMotion {
-        header_pga: pga.and_then(|rest| header_pga(rest.trim_start_matches([' ', '=']), G_M_S2)),
+        header_pga: header_pga(field(header, "PGA").text, G_M_S2),
         ..RecordedMotion::new(dt_s, values, unit, origin)
     })
-}
-
-/// The text behind what announces a unit: `IN UNITS OF G`, `Accelerations (g)`.
-fn unit_words(line: &str) -> Option<&str> {
-    let is_alone = line.trim_start().get(..5).is_some_and(|start| start.eq_ignore_ascii_case("accel"));
-    after(line, "UNITS OF").or_else(|| after(line, "(").filter(|_| is_alone))
-}
-
-/// The number behind a name: of `NPTS=  7818`.
-fn named(counts: &str, key: &str) -> Option<f64> {
-    let value = after(counts, key)?.trim_start_matches(['S', 's']).trim_start();
-    first_number(value.strip_prefix(['=', ':'])?)
 }
