@@ -54,7 +54,7 @@ pub enum Frequency {
     Occurrence,
 }
 
-/// What the words of a text say: the heading of a column of values, of frequencies, or of neither, or another.
+/// What the words of a text say: of the heading of values, of frequencies, or of neither, or of another text.
 #[derive(Debug, Clone)]
 pub struct Phrase {
     /// None in `Ground Motion (g)` and `AFE`.
@@ -154,7 +154,7 @@ impl Phrase {
         pairs.find_map(|pair| pair[0].parse().ok())
     }
 
-    /// None where a word or a number stands beside that may change the meaning: `monthly rate`, `1/475 years`.
+    /// None where a word or number stands beside that may change the meaning: `monthly rate`, `1/475 years`.
     fn frequency(&self, years_of_file: Option<f64>) -> Option<Frequency> {
         let mut words = self.clone();
         let numbers: Vec<String> = words.rest.extract_if(.., |word| is_number(word)).collect();
@@ -178,7 +178,7 @@ impl Phrase {
     }
 }
 
-/// The words and numbers of a text in lower case, `pe50` as `pe` and `50`, and percent signs behind numbers.
+/// Words and numbers of a text in lower case, `pe50` as `pe` and `50`, and percent signs behind numbers.
 fn words(text: &str) -> Vec<String> {
     let (mut parted, mut before) = (String::new(), ' ');
     for sign in text.to_lowercase().replace(" %", "%").chars() {

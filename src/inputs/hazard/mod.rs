@@ -58,8 +58,8 @@ struct Curve {
 }
 
 impl Curve {
-    /// Makes a curve, which some place on earth can have, of a column of values and one of frequencies. Tables
-    /// often begin with motions that are certain to come, and end with some that never do: these tell nothing.
+    /// Makes a curve, which some place on earth can have, of columns of values and of frequencies. Tables may
+    /// begin with motions that are certain to come, and end with some that never do: these tell nothing.
     fn new(
         of: (Imt, Statistic),
         [at, rates]: [usize; 2],

@@ -11,7 +11,7 @@ pub fn name_fields(grid: &mut Grid) {
     }
 }
 
-/// The table of a curve that has a column for each level. What is not known to be the mean is not taken for it.
+/// The table of a curve with a column for each level. What is not known to be the mean is not taken for it.
 pub fn curve(grid: &Grid, told: &mut Told) -> Result<Grid> {
     // Before version 3, the kind was the first word of the header.
     let header = grid.notes.first().map_or("", |note| note.trim_start_matches(['#', ' ']));
