@@ -63,21 +63,21 @@ fn column(grid: &Grid, at: usize) -> Result<((String, ArrayRef), Meaning)> {
         (_, Some((peak, _))) => Meaning::Known(peak.to_string()),
         _ if dictionary::entry(&heading.text).is_some() => Meaning::Known(heading.text.clone()),
         _ if is_kept.iter().any(|meaning| means(&heading.name, meaning)) => Meaning::Kept,
+        _ if grid.rows().all(|row| grid.value(row, at).is_none()) => Meaning::Kept,
         _ => Meaning::NotUnderstood,
     };
-    match grid.known(Some(at), &name) {
+    let (cells, meaning): (ArrayRef, Meaning) = match grid.known(Some(at), &name) {
+        Err(error) if known.is_some() || peak.is_some() => return Err(error),
+        Err(_) => {
+            let texts = grid.rows().map(|row| grid.cell(row, at));
+            (Arc::new(StringArray::from_iter_values(texts)), Meaning::Kept)
+        }
         Ok(numbers) => {
             let numbers = numbers.into_iter().map(|number| number.map(|number| size * number));
-            let is_empty = grid.rows().all(|row| grid.value(row, at).is_none());
-            let meaning = if is_empty && meaning == Meaning::NotUnderstood { Meaning::Kept } else { meaning };
-            Ok(((name, Arc::new(Float64Array::from_iter(numbers))), meaning))
+            (Arc::new(Float64Array::from_iter(numbers)), meaning)
         }
-        Err(error) if known.is_some() || peak.is_some() => Err(error),
-        Err(_) => {
-            let cells = grid.rows().map(|row| grid.cell(row, at));
-            Ok(((name, Arc::new(StringArray::from_iter_values(cells))), Meaning::Kept))
-        }
-    }
+    };
+    Ok(((name, cells), meaning))
 }
 
 /// The column that a heading names, and its unit in rad/s, rad or s.
@@ -88,11 +88,8 @@ fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
         ("tp", "tp_s", Quantity::Time),
         ("tm", "tm_s", Quantity::Time),
     ];
-    if means(&heading.name, "magnitude") {
-        return Ok(Some(("mw", 1.0)));
-    }
     let Some((_, column, quantity)) = COLUMNS.into_iter().find(|(name, ..)| *name == heading.name) else {
-        return Ok(None);
+        return Ok(means(&heading.name, "magnitude").then_some(("mw", 1.0)));
     };
     match heading.unit {
         None if !heading.is_scaled && !heading.is_percent => Ok(Some((column, 1.0))),
@@ -103,10 +100,7 @@ fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
 
 /// Finds the column of a peak by its name, and its unit in m/s2 or m/s.
 pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f64)> {
-    let (own, expected) = match wanted {
-        Peak::Pga => ("pga_m_s2", "pga_m_s2 or pga_g; --columns pga_m_s2=HEADING names one"),
-        Peak::Pgv => ("pgv_m_s", "pgv_m_s; --columns pgv_m_s=HEADING names one"),
-    };
+    let own = if wanted == Peak::Pga { "pga_m_s2" } else { "pgv_m_s" };
     let found = names.iter().filter_map(|name| {
         let (peak, unit) = peak(&Heading::new(name))?;
         (peak == wanted).then_some((*name, unit))
@@ -114,9 +108,11 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
     let found: Vec<(&str, f64)> = found.collect();
     match (found.iter().find(|(name, _)| *name == own), &found[..]) {
         (Some(column), _) | (None, [column]) => Ok(*column),
-        (None, []) => Err(InputError::unexpected(format!("columns {}", names.join(", ")), expected)),
-        (None, [(first, _), (second, _), ..]) => {
-            Err(InputError::unexpected(format!("columns {first} and {second}"), "one of them"))
+        (None, several) => {
+            let named: Vec<&str> = several.iter().map(|(name, _)| *name).collect();
+            let named = if named.is_empty() { names } else { &named };
+            let expected = "one of pga_m_s2 or pga_g, and pgv_m_s; --columns pga_m_s2=HEADING names one";
+            Err(InputError::unexpected(format!("columns {}", named.join(", ")), expected))
         }
     }
 }

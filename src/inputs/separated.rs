@@ -75,11 +75,11 @@ fn are_between_blanks(text: &str) -> bool {
 }
 
 /// The share of numbers among the cells of the last rows, by the share of rows that are parted; 0 where less
-/// than half are.
+/// than a quarter are.
 fn share_of_numbers(rows: &[RawRow]) -> f64 {
     let last: Vec<&RawRow> = rows.iter().rev().filter(|row| !row.is_comment).take(SHOWN).collect();
     let parted = last.iter().filter(|row| row.cells.len() > 1).count();
     let cells = || last.iter().flat_map(|row| &row.cells);
     let share = (parted * cells().filter(|cell| is_number(cell)).count().max(1)) as f64;
-    if 2 * parted < last.len() { 0.0 } else { share / (last.len() * cells().count()) as f64 }
+    if 4 * parted < last.len() { 0.0 } else { share / (last.len() * cells().count()) as f64 }
 }

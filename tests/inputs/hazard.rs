@@ -156,16 +156,16 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
     let exported = |rest: &str| openquake(&format!("#,,,\"kind='mean', investigation_time=50.0{rest}\""));
     let twice = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.5,0.6,0.002\n";
     for (text, columns, named) in [
-        ("pga_g,note\n", "", "Heading { heading: \"note\""),
+        ("pga_g,note\n", "", "found: \"pga_g\""),
         ("pga_g,AFE\n", "", "TooFewPoints(0)"),
         ("PGA (g),AFE\n0.1,0.01\n#0.3,0.001\n1,1e-4\n", "", "Cell { line: 3"),
         ("pga_g,AFE\n0.001,NA\n0.01,0.1\n0.1,0.01\n", "", "Cell { line: 2"),
         ("pga_g,AFE\n-0.1,1e-2\n0.2,2e-3\n0.4,1e-3\n", "", "Cell { line: 2"),
-        ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "Heading { heading: \"0.01\""),
+        ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "Heading { heading: \"0.01,"),
         ("Period (s),Sa (g)\n0,0.4\n0.1,0.4\n0.5,0.4\n1,0.4\n", "", "Heading { heading: \"Period (s)\""),
         ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", "", "0.1~PGA"),
         (&exported(""), "", "imt"),
-        (&exported(", imt='SA(0.3)'"), "", "SA(0.3)"),
+        (&exported(", imt='SA(0.3)'"), "", "SA(0.3 s)"),
         (&curve("intensity,AFE"), "", "Heading { heading: \"intensity\""),
         (&curve("SA(0.2) (g),AFE"), "", "a curve of SA(0.2 s)"),
         (&curve("SA(1.0) (g),AFE"), "", "SA(1.0 s)"),

@@ -288,6 +288,8 @@ proptest! {
             "# by hand", "* two rooms",
         ];
         let lines: Vec<&str> = kinds.iter().map(|kind| LINES[*kind]).collect();
+        // A text with few commas is one of words between blanks.
+        prop_assume!(2 * kinds.iter().filter(|kind| **kind < 5).count() >= kinds.len());
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("list.csv");
         std::fs::write(&path, format!("name,qty,width,height,note\nfirst,1,.4,2,c\n{}\n", lines.join("\n"))).unwrap();

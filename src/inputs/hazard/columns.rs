@@ -1,104 +1,136 @@
-//! What the headings of a hazard say: measures by their units, rates, probabilities and return periods, means
-//! and fractiles.
-
-use std::fmt;
+//! What a text says of a curve, by one parse of all: headings, comments, titles, cells and names of files.
 
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::units::{Quantity, Unit};
 
-use super::said::Said;
+use super::told::Told;
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, Result};
 
 /// An intensity measure type.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
+#[strum(serialize_all = "UPPERCASE")]
 pub enum Imt {
     Pga,
     Pgv,
-    /// Spectral acceleration, and its period in s where one is named.
-    Spectral(Option<f64>),
+    /// Spectral acceleration at a period that is not named.
+    Sa,
+    /// At this period in s.
+    #[strum(to_string = "SA({0:?} s)")]
+    SaAt(f64),
 }
 
 impl Imt {
-    pub const SA_1S: Imt = Imt::Spectral(Some(1.0));
-}
+    pub const SA_1S: Imt = Imt::SaAt(1.0);
 
-impl fmt::Display for Imt {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Imt::Pga => write!(f, "PGA"),
-            Imt::Pgv => write!(f, "PGV"),
-            Imt::Spectral(Some(period_s)) => write!(f, "SA({period_s:?} s)"),
-            Imt::Spectral(None) => write!(f, "SA"),
-        }
+    /// Whether two names may be of one measure.
+    pub fn may_be(self, other: Imt) -> bool {
+        self == other || matches!((self, other), (Imt::Sa, Imt::SaAt(_)) | (Imt::SaAt(_), Imt::Sa))
     }
 }
 
 /// Which of several curves of a measure.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display)]
+#[strum(serialize_all = "lowercase")]
 pub enum Statistic {
-    #[strum(serialize = "mean")]
     Mean,
-    #[strum(serialize = "median")]
     Median,
-    #[strum(serialize = "16 %")]
+    #[strum(to_string = "16 %")]
     Low,
-    #[strum(serialize = "84 %")]
+    #[strum(to_string = "84 %")]
     High,
 }
 
-/// How a column expresses frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// How a column expresses the frequency of exceedance, or of pairs of peaks.
+#[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
 pub enum Frequency {
-    /// Annual rate of exceedance.
+    #[strum(to_string = "annual rate")]
     Rate,
-    /// Probability of exceedance in this many years.
+    #[strum(to_string = "probability in {0} years")]
     ProbabilityIn(f64),
-    /// Years between exceedances.
+    #[strum(to_string = "return period in years")]
     ReturnPeriod,
-    /// Annual rate of occurrence of a pair of peaks.
+    #[strum(to_string = "annual rate of occurrence")]
     Occurrence,
 }
 
-impl fmt::Display for Frequency {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self {
-            Frequency::Rate => write!(f, "annual rate"),
-            Frequency::ProbabilityIn(years) => write!(f, "probability in {years} years"),
-            Frequency::ReturnPeriod => write!(f, "return period in years"),
-            Frequency::Occurrence => write!(f, "annual rate of occurrence"),
-        }
-    }
-}
-
-/// A column by its heading: of values, of frequencies, or of neither.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HazardColumn {
-    pub at: usize,
-    /// Unit of its values, in m/s2 or m/s.
-    pub unit: Option<f64>,
-    pub frequency: Option<Frequency>,
-    /// None where the heading names none: `Ground Motion (g)`, `AFE`.
-    pub measure: Option<Imt>,
-    pub statistic: Option<Statistic>,
-    /// Years that the heading names.
-    years: Option<f64>,
-}
-
-/// What the words of a heading, or of a cell below it, say.
+/// What the words of a text say: of the heading of values, of frequencies, or of neither, or of another text.
+#[derive(Debug, Clone)]
 pub struct Phrase {
-    pub measure: Option<Imt>,
+    /// None in `Ground Motion (g)` and `AFE`.
+    pub measures: Vec<Imt>,
     pub statistic: Option<Statistic>,
-    /// Words that say neither.
-    rest: Vec<String>,
+    /// Whether it has a word for fractiles.
+    pub is_ranked: bool,
+    pub unit: Option<Unit>,
+    /// Unit of the values below, in m/s2 or m/s.
+    pub of_values: Option<f64>,
+    /// Of the frequencies below.
+    pub frequency: Option<Frequency>,
+    /// Words and numbers that say neither a measure nor a fractile.
+    pub rest: Vec<String>,
 }
 
 impl Phrase {
     pub fn new(text: &str) -> Phrase {
-        let text = parted(text);
-        let mut words: Vec<&str> = text.split_whitespace().collect();
-        let (measure, statistic) = (take_measure(&mut words), take_statistic(&mut words));
-        Phrase { measure, statistic, rest: words.into_iter().map(str::to_string).collect() }
+        Phrase::of(&Heading::new(text), &Told::default())
+    }
+
+    /// Reads a heading, with what its file tells of units and years.
+    pub fn of(heading: &Heading, told: &Told) -> Phrase {
+        // A word may stand behind the unit: pga_g_16.
+        let parted = heading.bare.rsplit_once('_').map(|(text, last)| (Heading::new(text), last));
+        let parted = parted.filter(|(own, _)| heading.unit.is_none() && own.unit.is_some());
+        let (own, last) = parted.as_ref().map_or((heading, ""), |(own, last)| (own, *last));
+        // The unit of a period or of years is one of the words.
+        let time = own.unit.filter(|unit| unit.quantity == Quantity::Time).map_or("", |unit| unit.name);
+        let mut rest = words(&format!("{} {time} {last}", own.bare));
+        let is_p = |pair: &[String]| pair[0] == "p" && is_number(&pair[1]);
+        let is_ranked = rest.iter().any(|word| is_one_of(word, "of-fractiles")) || rest.windows(2).any(is_p);
+        let measures = std::iter::from_fn(|| take_measure(&mut rest)).collect();
+        let (statistic, unit) = (take_statistic(&mut rest), own.unit.filter(|_| time.is_empty()));
+        let mut phrase =
+            Phrase { measures, statistic, is_ranked, unit, of_values: None, frequency: None, rest };
+        let unit = unit.or_else(|| told.unit(|unit| phrase.are_values(unit)));
+        let unit = unit.filter(|unit| !heading.is_scaled && phrase.are_values(*unit));
+        let is_frequency = unit.is_none() && !heading.is_scaled;
+        phrase.of_values = unit.map(|unit| unit.si);
+        phrase.frequency = phrase.frequency(told.years).filter(|_| is_frequency);
+        if unit.is_some_and(|unit| unit.quantity == Quantity::Velocity) {
+            phrase.measures = vec![Imt::Pgv];
+        }
+        phrase
+    }
+
+    pub fn measure(&self) -> Option<Imt> {
+        self.measures.first().copied()
+    }
+
+    pub fn is_of_curve(&self) -> bool {
+        self.of_values.is_some() || self.frequency.is_some()
+    }
+
+    /// Whether both say something of the measure, the fractile, the frequency or the years, and not the same.
+    pub fn contradicts(&self, other: &Phrase) -> bool {
+        fn differ<T: PartialEq>(one: Option<T>, other: Option<T>) -> bool {
+            one.zip(other).is_some_and(|(one, other)| one != other)
+        }
+        self.measure().zip(other.measure()).is_some_and(|(one, other)| !one.may_be(other))
+            || differ(self.statistic, other.statistic)
+            || differ(self.frequency, other.frequency)
+            || differ(self.years(), other.years())
+    }
+
+    /// Its frequency, measure and fractile.
+    pub fn meaning(&self) -> String {
+        let frequency = self.frequency.map(|frequency| frequency.to_string());
+        let measure = self.measure().map(|measure| measure.to_string());
+        let statistic = self.statistic.map(|statistic| statistic.to_string());
+        Vec::from_iter([frequency, measure, statistic].into_iter().flatten()).join(", ")
+    }
+
+    fn has(&self, meaning: &str) -> bool {
+        self.rest.iter().any(|word| is_one_of(word, meaning))
     }
 
     /// Whether all other words have one of these meanings.
@@ -107,221 +139,147 @@ impl Phrase {
     }
 
     /// Whether it is of values in a unit.
-    fn are_values(&self, unit: &Unit) -> bool {
-        let name = match (unit.quantity, self.measure) {
-            (Quantity::Acceleration, None | Some(Imt::Pga | Imt::Spectral(_))) => "acceleration",
-            (Quantity::Velocity, None | Some(Imt::Pgv)) => "velocity",
+    fn are_values(&self, unit: Unit) -> bool {
+        let name = match (unit.quantity, &self.measures[..]) {
+            (Quantity::Acceleration, [] | [Imt::Pga | Imt::Sa | Imt::SaAt(_)]) => "acceleration",
+            (Quantity::Velocity, [] | [Imt::Pgv]) => "velocity",
             _ => return false,
         };
-        let is_named = self.measure.is_some() || self.rest.iter().any(|word| is_one_of(word, name));
-        is_named && self.says_only(&[name, "of-values"])
+        (self.has(name) || !self.measures.is_empty()) && self.says_only(&[name, "of-values"])
     }
 
+    /// A number before a word for years.
     fn years(&self) -> Option<f64> {
         let mut pairs = self.rest.windows(2).filter(|pair| is_one_of(&pair[1], "years"));
         pairs.find_map(|pair| pair[0].parse().ok())
     }
+
+    /// None where a word or number stands beside that may change the meaning: `monthly rate`, `1/475 years`.
+    fn frequency(&self, years_of_file: Option<f64>) -> Option<Frequency> {
+        let mut words = self.clone();
+        let numbers: Vec<String> = words.rest.extract_if(.., |word| is_number(word)).collect();
+        let numbers: Vec<f64> = numbers.iter().filter_map(|number| number.parse().ok()).collect();
+        let is = |name: &str| words.rest.iter().any(|word| word == name);
+        let is_annual = is("annual") || is("aep") || is("ape");
+        let meanings = ["rate", "return-period", "probability", "years", "of-rates"];
+        match numbers[..] {
+            _ if self.unit.is_some() || self.measures.len() > 1 || !words.says_only(&meanings) => None,
+            [] if self.has("probability") => {
+                is_annual.then_some(1.0).or(years_of_file).map(Frequency::ProbabilityIn)
+            }
+            [years] if self.has("probability") => Some(Frequency::ProbabilityIn(years)),
+            [] | [1.0] if is("occurrence") => Some(Frequency::Occurrence),
+            [] | [1.0] if self.has("return-period") || self.rest.join(" ").starts_with("t r") => {
+                Some(Frequency::ReturnPeriod)
+            }
+            [] | [1.0] if self.has("rate") => Some(Frequency::Rate),
+            _ => None,
+        }
+    }
 }
 
-fn is_numeric(word: &str) -> bool {
+/// Words and numbers of a text in lower case, `pe50` as `pe` and `50`, and percent signs behind numbers.
+fn words(text: &str) -> Vec<String> {
+    let (mut parted, mut before) = (String::new(), ' ');
+    for sign in text.to_lowercase().replace(" %", "%").chars() {
+        let kind = match sign {
+            '.' | '0'..='9' => '0',
+            '%' if before == '0' => '%',
+            _ if sign.is_alphanumeric() => 'a',
+            _ => ' ',
+        };
+        parted.push_str(if kind == before { "" } else { " " });
+        parted.extend((kind != ' ').then_some(sign));
+        before = kind;
+    }
+    let words = parted.split(' ').map(|word| word.trim_matches('.'));
+    words.filter(|word| !word.is_empty()).map(str::to_string).collect()
+}
+
+fn is_number(word: &str) -> bool {
     word.starts_with(|sign: char| sign.is_ascii_digit())
 }
 
-impl HazardColumn {
-    /// Reads the heading of a column, with what its file says of units and years.
-    pub fn new(at: usize, heading: &Heading, said: &Said) -> HazardColumn {
-        // A fractile may stand behind the unit: pga_g_16.
-        let ranked =
-            heading.bare.rsplit_once('_').filter(|(_, rank)| matches!(*rank, "16" | "84" | "p16" | "p84"));
-        let ranked = ranked.filter(|_| heading.unit.is_none()).map(|(text, rank)| (Heading::new(text), rank));
-        let (own, rank) = ranked.as_ref().map_or((heading, ""), |(own, rank)| (own, *rank));
-        let own_unit = own.unit.or(heading.unit);
-        let mut phrase = Phrase::new(&match own_unit {
-            // The unit of a period or of years is one of the words.
-            Some(Unit { quantity: Quantity::Time, name, .. }) => format!("{} {name} {rank}", own.bare),
-            _ => format!("{} {rank}", own.bare),
-        });
-        let own_unit = own_unit.filter(|unit| unit.quantity != Quantity::Time);
-        let unit = own_unit.or_else(|| said.unit(|unit| phrase.are_values(unit)));
-        let unit = unit.filter(|unit| !heading.is_scaled && phrase.are_values(unit));
-        if unit.is_some_and(|unit| unit.quantity == Quantity::Velocity) {
-            phrase.measure = Some(Imt::Pgv);
-        }
-        let is_frequency = unit.is_none() && own_unit.is_none() && !heading.is_scaled;
-        let frequency = Frequency::new(&phrase.rest, said.years).filter(|_| is_frequency);
-        let (measure, statistic, years) = (phrase.measure, phrase.statistic, phrase.years());
-        HazardColumn { at, unit: unit.map(|unit| unit.si), frequency, measure, statistic, years }
+/// Takes the first measure out of words, with its period behind or before: `Sa(T=1.0 s)`, `1.0 s SA`.
+fn take_measure(words: &mut Vec<String>) -> Option<Imt> {
+    let ranges = (0..words.len()).flat_map(|at| [3, 2, 1].map(|count| at..at + count));
+    let (meaning, range) = ranges.into_iter().find_map(|range| {
+        let name = words.get(range.clone())?.join("-");
+        let meaning = ["pga", "pgv", "spectral"].into_iter().find(|meaning| is_one_of(&name, meaning));
+        Some((meaning?, range))
+    })?;
+    let at = range.start;
+    words.drain(range);
+    if meaning != "spectral" {
+        return Some(if meaning == "pga" { Imt::Pga } else { Imt::Pgv });
     }
-
-    pub fn is_of_curve(&self) -> bool {
-        self.unit.is_some() || self.frequency.is_some()
-    }
-
-    /// The measure and the statistic that it and another column name; none where they differ.
-    pub fn named_with(&self, other: &HazardColumn) -> Option<(Option<Imt>, Option<Statistic>)> {
-        let is_same = !differ(self.measure, other.measure) && !differ(self.statistic, other.statistic);
-        is_same.then(|| (self.measure.or(other.measure), self.statistic.or(other.statistic)))
-    }
+    let number = |at: usize| words.get(at).and_then(|word| word.parse().ok());
+    let unit = |at: usize| words.get(at).and_then(|word| Unit::parse(word));
+    let is_second = |at: usize| unit(at).is_some_and(|unit| unit.name == "s");
+    let is_period = |word: &&String| *word == "at" || is_one_of(word, "spectral-period");
+    let behind = at + words[at..].iter().take_while(is_period).count();
+    let before = at.checked_sub(2).filter(|_| is_second(at - 1));
+    let (period_s, said) = match (number(behind), before.and_then(number)) {
+        (Some(period_s), _) => (period_s, at..behind + 1 + usize::from(is_second(behind + 1))),
+        (None, Some(period_s)) => (period_s, at - 2..at),
+        (None, None) => return Some(Imt::Sa),
+    };
+    words.drain(said);
+    Some(Imt::SaAt(period_s))
 }
 
-/// Of values by their measure, else of frequencies.
-impl fmt::Display for HazardColumn {
-    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let measure = self.measure.map(|measure| measure.to_string());
-        let frequency = self.frequency.map(|frequency| frequency.to_string());
-        let statistic = self.statistic.map(|statistic| statistic.to_string());
-        let parts: Vec<String> = [frequency, measure, statistic].into_iter().flatten().collect();
-        f.write_str(&parts.join(", "))
-    }
-}
-
-fn differ<T: PartialEq>(one: Option<T>, other: Option<T>) -> bool {
-    one.zip(other).is_some_and(|(one, other)| one != other)
+/// Takes the words that name a fractile out of others. A number of years is none.
+fn take_statistic(words: &mut Vec<String>) -> Option<Statistic> {
+    let is = |at: usize, meaning: &str| words.get(at).is_some_and(|word| is_one_of(word, meaning));
+    let (at, statistic) = (0..words.len()).find_map(|at| {
+        let are_years = is(at + 1, "years") || at > 0 && is(at - 1, "probability");
+        let is_ranked = (at.saturating_sub(1)..at + 3).any(|beside| is(beside, "fractile"));
+        let statistic = match words[at].as_str() {
+            "median" => Statistic::Median,
+            "50" | "0.5" | "0.50" if is_ranked && !are_years => Statistic::Median,
+            "16" | "0.16" if !are_years => Statistic::Low,
+            "84" | "0.84" if !are_years => Statistic::High,
+            _ => return None,
+        };
+        Some((at, statistic))
+    })?;
+    words.remove(at);
+    words.retain(|word| !is_one_of(word, "fractile"));
+    Some(statistic)
 }
 
 /// Whether a heading says another measure, frequency or fractile than the name that a user gives its column.
 pub fn contradict(heading: &Heading, name: &Heading) -> bool {
-    let [own, given] = [heading, name].map(|heading| HazardColumn::new(0, heading, &Said::default()));
-    let is_ranked = given.is_of_curve() && own.statistic.is_some() && own.statistic != given.statistic;
-    let is_other = differ(own.measure, given.measure) || differ(own.frequency, given.frequency);
-    is_ranked || is_other || differ(own.years, given.years)
+    let [own, given] = [heading, name].map(|heading| Phrase::of(heading, &Told::default()));
+    given.is_of_curve() && own.statistic.is_some() && given.statistic.is_none() || own.contradicts(&given)
 }
 
 /// The peak that a heading names, and its unit in m/s2 or m/s; none where it names none, or no unit, or has a
 /// word more, which may change the meaning: `vertical PGA`. An acceleration without a name is PGA.
 pub fn peak(heading: &Heading) -> Option<(Peak, f64)> {
-    let HazardColumn { unit, measure, .. } = HazardColumn::new(0, heading, &Said::default());
-    match measure {
-        None | Some(Imt::Pga) => Some((Peak::Pga, unit?)),
-        Some(Imt::Pgv) => Some((Peak::Pgv, unit?)),
-        Some(Imt::Spectral(_)) => None,
+    let phrase = Phrase::of(heading, &Told::default());
+    match phrase.measure() {
+        None | Some(Imt::Pga) => Some((Peak::Pga, phrase.of_values?)),
+        Some(Imt::Pgv) => Some((Peak::Pgv, phrase.of_values?)),
+        Some(Imt::Sa | Imt::SaAt(_)) => None,
     }
-}
-
-/// A text in lower case with blanks between words and numbers: `pe50` is `pe 50`. A percent sign behind a
-/// number is that of a fractile.
-pub fn parted(text: &str) -> String {
-    let is_digit = |sign: char| sign.is_ascii_digit() || sign == '.';
-    let (mut parted, mut before) = (String::new(), ' ');
-    for sign in text.to_lowercase().chars() {
-        let last = parted.chars().last().unwrap_or(' ');
-        if is_digit(sign) != is_digit(last) {
-            parted.push(' ');
-        }
-        let is_rank = sign == '%' && is_digit(before);
-        parted.push(if sign.is_alphanumeric() || sign == '.' { sign } else { ' ' });
-        parted.push_str(if is_rank { "percentile " } else { "" });
-        before = if sign == ' ' { before } else { sign };
-    }
-    parted.replace(". ", " ").replace(" .", " ").trim_matches('.').to_string()
-}
-
-/// Takes the first measure out of words, with its period before or behind: `1.0 s SA`, `SA0P2`.
-pub fn take_measure(words: &mut Vec<&str>) -> Option<Imt> {
-    const SECONDS: [&str; 4] = ["s", "sec", "second", "seconds"];
-    for at in 0..words.len() {
-        let before = at.checked_sub(1).map_or("", |before| words[before]);
-        let start = if before == "spectral" { at - 1 } else { at };
-        let name = at
-            + 1
-            + words[at + 1..].iter().take_while(|word| matches!(**word, "at" | "t" | "period")).count();
-        let behind = &words[name..];
-        let count = behind.iter().take_while(|word| is_numeric(word) || **word == "p").count();
-        let peak = match words[at] {
-            "pgv" => Some(Imt::Pgv),
-            "velocity" if before == "ground" => Some(Imt::Pgv),
-            "pga" | "ag" => Some(Imt::Pga),
-            "acceleration" if before == "ground" || start == at && words[..at].contains(&"peak") => {
-                Some(Imt::Pga)
-            }
-            "sa" | "psa" => None,
-            "s" if at == 0 && count > 0 => None,
-            "acceleration" if before == "spectral" => None,
-            _ => continue,
-        };
-        if peak.is_some() {
-            words.remove(at);
-            return peak;
-        }
-        let told: Vec<&str> = behind[..count].iter().copied().filter(|word| *word != "p").collect();
-        let is_before = count == 0 && start > 1 && SECONDS.contains(&words[start - 1]);
-        let period_s = if is_before { words[start - 2].parse() } else { told.join(".").parse() };
-        let has_unit = behind.get(count).is_some_and(|next| count > 0 && SECONDS.contains(next));
-        let end = if count == 0 { at + 1 } else { name + count + usize::from(has_unit) };
-        words.drain(if is_before { start - 2 } else { start }..end);
-        return Some(Imt::Spectral(period_s.ok()));
-    }
-    None
-}
-
-/// Words beside the number of a fractile.
-const RANKS: [&str; 5] = ["p", "th", "percentile", "fractile", "quantile"];
-
-pub fn is_ranked(words: &[&str], at: usize) -> bool {
-    let beside =
-        [at.checked_sub(1), Some(at + 1)].into_iter().flatten().filter_map(|beside| words.get(beside));
-    is_numeric(words[at]) && beside.into_iter().any(|word| RANKS.contains(word))
-}
-
-/// Takes the words that name a fractile out of others. A number of years is none.
-pub fn take_statistic(words: &mut Vec<&str>) -> Option<Statistic> {
-    let (at, statistic) = (0..words.len()).find_map(|at| {
-        let next = words.get(at + 1).copied().unwrap_or_default();
-        let are_years = is_one_of(next, "years") || at > 0 && is_one_of(words[at - 1], "probability");
-        let statistic = match words[at] {
-            "median" => return Some((at, Statistic::Median)),
-            "50" | "0.5" | "0.50" if is_ranked(words, at) => Statistic::Median,
-            "16" | "0.16" => Statistic::Low,
-            "84" | "0.84" => Statistic::High,
-            _ => return None,
-        };
-        (is_ranked(words, at) || !are_years).then_some((at, statistic))
-    })?;
-    words.remove(at);
-    words.retain(|word| !RANKS.contains(word));
-    Some(statistic)
 }
 
 impl Frequency {
-    /// None where a word stands beside that may change the meaning: `monthly rate`, `non-exceedance`.
-    fn new(words: &[String], investigation_years: Option<f64>) -> Option<Frequency> {
-        const MEANINGS: [&str; 5] = ["rate", "return-period", "probability", "years", "of-rates"];
-        let (numbers, words): (Vec<&str>, Vec<&str>) =
-            words.iter().map(String::as_str).partition(|word| is_numeric(word));
-        let has = |meaning: &str| words.iter().any(|word| is_one_of(word, meaning));
-        let years: Option<f64> = numbers.first().and_then(|number| number.parse().ok());
-        match words.iter().all(|word| MEANINGS.iter().any(|meaning| is_one_of(word, meaning))) {
-            false => None,
-            _ if numbers.len() > 1 => None,
-            _ if has("probability") => {
-                let annual = words.iter().any(|word| matches!(*word, "annual" | "aep" | "ape"));
-                years.or(annual.then_some(1.0)).or(investigation_years).map(Frequency::ProbabilityIn)
-            }
-            // The 475 of `1/475 yr` is of one row, or of none.
-            _ if numbers.iter().any(|number| number.parse() != Ok(1.0)) => None,
-            _ if words.contains(&"occurrence") => Some(Frequency::Occurrence),
-            _ if has("return-period") || words.starts_with(&["t", "r"]) => Some(Frequency::ReturnPeriod),
-            _ => has("rate").then_some(Frequency::Rate),
-        }
-    }
-
-    /// Reads the annual rate in a cell; none if the motion is certain, whose rate is unknown.
-    pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<Option<f64>> {
+    /// Reads the annual rate in a cell, infinite if the motion is certain.
+    pub fn annual_rate(self, grid: &Grid, row: usize, column: usize) -> Result<f64> {
         let number = grid.number(row, column)?;
-        let (rate, expected) = match self {
-            Frequency::Rate | Frequency::Occurrence if grid.is_percent(row, column) => {
-                (None, "a rate a year, such as 0.002; percent are probabilities")
-            }
-            Frequency::Rate | Frequency::Occurrence => {
-                (Some(number).filter(|rate| (0.0..=1000.0).contains(rate)), "a rate a year from 0 to 1000")
-            }
-            Frequency::ReturnPeriod => ((number > 0.0).then_some(1.0 / number), "years above 0"),
-            Frequency::ProbabilityIn(_) if number == 1.0 => return Ok(None),
+        let (is_possible, rate, expected) = match self {
             Frequency::ProbabilityIn(years) => {
-                let rate = (0.0..1.0).contains(&number).then(|| -(-number).ln_1p() / years);
-                (rate, "a probability from 0 to 1, or with a percent sign")
+                let expected = "a probability from 0 to 1, or with a percent sign";
+                ((0.0..=1.0).contains(&number), -(-number).ln_1p() / years, expected)
+            }
+            Frequency::ReturnPeriod => (number > 0.0, 1.0 / number, "years above 0"),
+            Frequency::Rate | Frequency::Occurrence => {
+                let expected = "a rate a year from 0 to 1000; percent are probabilities";
+                ((0.0..=1000.0).contains(&number) && !grid.is_percent(row, column), number, expected)
             }
         };
-        rate.map(Some).ok_or_else(|| grid.refusal(row, column, expected))
+        if is_possible { Ok(rate) } else { Err(grid.refusal(row, column, expected)) }
     }
 }
