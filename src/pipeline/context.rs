@@ -112,17 +112,16 @@ impl Context {
         locked(&self.warnings).extend(warnings);
     }
 
-    pub fn warnings(&self) -> Warnings {
-        locked(&self.warnings).clone()
-    }
-
-    /// Keeps how files of people were read.
-    pub fn tell(&self, readings: Vec<Reading>) {
+    /// Keeps how files of people were read, and doubts about what they say.
+    pub fn tell(&self, warnings: Warnings, readings: Vec<Reading>) {
+        self.warn(warnings);
         locked(&self.readings).extend(readings);
     }
 
-    pub fn readings(&self) -> Vec<Reading> {
-        locked(&self.readings).clone()
+    /// What is planned, with what is known by now.
+    pub fn made(&self, summary: &str) -> Provenance {
+        let (warnings, readings) = (locked(&self.warnings).clone(), locked(&self.readings).clone());
+        Provenance { summary: summary.to_string(), warnings, readings, ..self.plan.made.clone() }
     }
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
@@ -134,8 +133,7 @@ impl Context {
 
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
-        let (summary, warnings, readings) = (summary.to_string(), self.warnings(), self.readings());
-        let made = Provenance { summary, warnings, readings, ..self.plan.output(output).with_before() };
+        let made = Provenance { output, ..self.made(summary) }.with_before();
         locked(&self.written).push(writer.finish(&made)?);
         Ok(())
     }

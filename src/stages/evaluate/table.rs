@@ -46,7 +46,7 @@ pub fn evaluate(
             vec![Batch { path: path.into(), first_row: 0, rows }]
         }
     };
-    let given = if structures.is_given() { structures.objects(&place, reader)?.0 } else { Vec::new() };
+    let given = if structures.is_given() { structures.objects(&place, reader)? } else { Vec::new() };
     if given.len() > 1 {
         return Err(UsageError::because(
             "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",

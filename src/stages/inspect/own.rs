@@ -68,7 +68,7 @@ impl Inspect {
         let kind = grid.as_ref().map_or(Kind::Record, Kind::new);
         let read = match kind {
             Kind::List => objects::read(path, &mut reader, &self.list.defaults())
-                .map(|(objects, _)| lines = places(&objects)),
+                .map(|objects| lines = places(&objects)),
             Kind::Hazard => {
                 hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years).map(|_| ())
             }
