@@ -32,9 +32,9 @@ use crate::chart::text::literal;
 use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
-use crate::table::TableError;
+use crate::table::file::ParquetTable;
 use crate::table::provenance::Provenance;
-use crate::table::rows;
+use crate::table::{TableError, rows};
 pub use at_site::AtSite;
 pub use labels::Labels;
 pub use row::{
@@ -305,12 +305,14 @@ impl AnswerTable {
     /// Reads the answers of a file, and the variants beside it.
     pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let mut rows: Vec<Answer> = rows::read(path)?;
-        rows.iter_mut().zip(labels::read(path)?).for_each(|(answer, labels)| answer.labels = labels);
-        if rows.iter().any(|answer| answer.fragility.over.is_some()) {
-            rows = with_points(rows, &rows::read(path)?);
+        let mut rows = Vec::new();
+        for batch in ParquetTable::open(path)?.batches(|_| true) {
+            let batch = batch?;
+            let points = rows::from_batch::<CurveRow>(&batch)?.into_iter().zip(labels::read(&batch)?);
+            for (answer, (point, labels)) in rows::from_batch::<Answer>(&batch)?.into_iter().zip(points) {
+                add(&mut rows, Answer { labels, file: file.to_string(), ..answer }, &point);
+            }
         }
-        rows.iter_mut().for_each(|answer| answer.file = file.to_string());
         let beside = variants_beside(path);
         let other = Provenance::read(&beside).ok().flatten();
         let of_these =
@@ -364,20 +366,15 @@ pub fn variants_beside(path: &Path) -> PathBuf {
     path.with_extension("variants.parquet")
 }
 
-/// Gives each answer of a table of points its points, and what is over PGV that over PGA.
-fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
-    let mut answers: Vec<Answer> = Vec::new();
-    for (row, point) in rows.into_iter().zip(points) {
-        let of = |answer: &Answer| (answer.object.structure.clone(), answer.fragility.over);
-        if answers.last().is_none_or(|last| of(last) != of(&row)) {
-            answers.push(Answer { p: StateColumns::default(), ..row });
-        }
-        answers.last_mut().into_iter().for_each(|answer| answer.points.extend(point.point()));
-    }
-    let is_beside = |one: &Answer, next: &Answer| {
-        one.object.structure == next.object.structure
-            && [one, next].map(|of| of.fragility.over) == [Some(Peak::Pgv), Some(Peak::Pga)]
+/// Adds a row of a file: of a fragility it is a point, that over PGA beside the same object over PGV.
+fn add(answers: &mut Vec<Answer>, row: Answer, point: &CurveRow) {
+    let Some(over) = row.fragility.over else { return answers.push(row) };
+    let row = Answer { p: StateColumns::default(), ..row };
+    let before = answers.last_mut().filter(|before| before.object.structure == row.object.structure);
+    let answer = match before.and_then(|before| Some((before.fragility.over?, before))) {
+        Some((peak, before)) if peak == over => before,
+        Some((Peak::Pgv, before)) => before.over_pga.get_or_insert_with(|| Box::new(row)),
+        _ => answers.push_mut(row),
     };
-    let joined = answers.chunk_by(is_beside);
-    joined.map(|of| Answer { over_pga: of.get(1).cloned().map(Box::new), ..of[0].clone() }).collect()
+    answer.points.extend(point.point());
 }

@@ -7,12 +7,12 @@ use rockfrag_core::object::Object;
 use rockfrag_core::units::G_M_S2;
 use serde::Serialize;
 
-use super::Inspect;
+use super::{Inspect, above};
 use crate::document::readings;
 use crate::inputs::records::{ReadOptions, read_records};
 use crate::inputs::{ColumnReading, Grid, Heading, InputError, Meaning, Reading};
 use crate::inputs::{hazard, intensities, objects, unpack};
-use crate::number::{plain, rounded, significant, visible};
+use crate::number::{plain, rounded, significant};
 use crate::source;
 use crate::table::frame::Format;
 
@@ -54,41 +54,38 @@ impl Inspect {
             Format::Csv => table.csv(),
             Format::Text => {
                 let first = format!("{}: {kind}, {} rows", reading.file, reading.rows);
-                let lines = [vec![first], reading.others].concat();
-                let lines = lines.iter().map(|line| format!("{}\n", visible(line, &[])));
-                Ok(lines.collect::<String>() + "\n" + &table.text(None))
+                Ok(above(&[vec![first], reading.others].concat(), &table.text(None)))
             }
         }
     }
 
     /// Reads the file as the stage does that takes it.
     fn read(&self) -> anyhow::Result<Own> {
-        let (mut reader, path, mut lines) = (self.reading.reader(), &self.file, Vec::new());
+        let (mut reader, path) = (self.reading.reader(), &self.file);
         let grid = self.reading.reader().read(path);
         let kind = grid.as_ref().map_or(Kind::Record, Kind::new);
         let read = match kind {
-            Kind::List => objects::read(path, &mut reader, &self.list.defaults())
-                .map(|objects| lines = places(&objects)),
-            Kind::Hazard => {
-                hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years).map(|_| ())
+            Kind::List => {
+                objects::read(path, &mut reader, &self.list.defaults()).map(|objects| places(&objects))
             }
-            Kind::Intensities => intensities::read(path, &mut reader).map(|_| ()),
+            Kind::Hazard => hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years)
+                .map(|_| Vec::new()),
+            Kind::Intensities => intensities::read(path, &mut reader).map(|_| Vec::new()),
             // What is neither a record nor a table is no table.
-            Kind::Record => self
-                .record()
-                .map(|record| reader.readings.push(record))
-                .map_err(|error| grid.err().unwrap_or(error).in_file(path)),
-        };
-        let reading = match (read, reader.readings.pop()) {
-            (Err(error), None) => return Err(error.into()),
-            // One of several curves gives no hazard alone.
-            (read, reading) => {
-                lines.extend(read.err().map(|error| error.to_string()));
-                reading.unwrap_or_default()
+            Kind::Record => {
+                let record = self.record().map_err(|error| grid.err().unwrap_or(error).in_file(path))?;
+                reader.readings.push(record);
+                Ok(Vec::new())
             }
         };
-        let (file, others) = (path.display().to_string(), [reading.others, lines].concat());
-        Ok(Own { kind, reading: Reading { file, others, ..reading } })
+        let (file, reading) = (path.display().to_string(), reader.readings.pop());
+        let lines = match read {
+            // One of several curves gives no hazard alone.
+            Err(error) if reading.is_some() => vec![error.to_string()],
+            read => read?,
+        };
+        let reading = reading.unwrap_or_default();
+        Ok(Own { kind, reading: Reading { file, others: [reading.others, lines].concat(), ..reading } })
     }
 
     fn record(&self) -> Result<Reading, InputError> {
