@@ -50,8 +50,8 @@ pub enum Question {
     /// probability of overturning is a target.
     Hazard { site: Site, years: f64, target: Option<f64> },
     /// What share of the motions of each intensity has the effect: at the site of a hazard curve, or in
-    /// general.
-    Curve { general: GenericSites, site: Option<Site> },
+    /// general; and the same over the peak `beside`.
+    Curve { general: GenericSites, site: Option<Site>, beside: Option<Peak> },
 }
 
 /// What is predicted for an object: a row of the file that evaluate writes.
@@ -132,8 +132,7 @@ pub fn assess(
         .par_iter()
         .map(|object| {
             progress.advance(1)?;
-            let (answer, known) = Answer::new(object, question, models)?;
-            Ok((Answer { labels: object.labels.clone(), ..answer }, known))
+            Answer::new(object, question, models)
         })
         .collect();
     // The first error in the order of the objects, whichever thread meets one first.
@@ -167,19 +166,15 @@ fn of_list(answers: &[AnswerOfObject], question: &Question) -> ListProbabilities
 
 impl Answer {
     fn new(object: &Object, question: &Question, models: ModelsOf) -> anyhow::Result<AnswerOfObject> {
+        let mut answer = Answer { labels: object.labels.clone(), ..Answer::default() };
         if let Err(reason) = object.sides() {
-            let warnings = Some(reason.to_string());
-            let answer = Answer {
-                object: ObjectColumns::new(object, None),
-                uncertainty: UncertaintyColumns { warnings, ..UncertaintyColumns::default() },
-                ..Answer::default()
-            };
+            answer.object = ObjectColumns::new(object, None);
+            answer.uncertainty.warnings = Some(reason.to_string());
             return Ok((answer, None));
         }
         let (rocking, mut warnings) = models(object)?;
         let weaker = &rocking.directions[0];
-        let columns = ObjectColumns::new(object, Some(weaker));
-        let mut answer = Answer { object: columns, ..Answer::default() };
+        answer.object = ObjectColumns::new(object, Some(weaker));
         let (budget, magnitude, motion) = match question {
             Question::Motion(motion) => {
                 let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking);
@@ -200,7 +195,13 @@ impl Answer {
                 warnings.extend(rates.warnings);
                 (rates.budget, rates.magnitude, rates.motion)
             }
-            Question::Curve { general, site } => {
+            Question::Curve { general, site, beside } => {
+                if let Some(over) = *beside {
+                    let general = GenericSites { over, ..*general };
+                    let other = Question::Curve { general, site: None, beside: None };
+                    let (other, _) = Answer::new(object, &other, models)?;
+                    answer.over_pga = Some(Box::new(other)).filter(|other| other.is_answered());
+                }
                 let at_site = site.as_ref().and_then(|site| site.fragility(&rocking));
                 let fragility = at_site.unwrap_or_else(|| general.fragility(&rocking));
                 answer.fragility = FragilityColumns::new(&fragility);
@@ -314,10 +315,7 @@ impl AnswerTable {
             }
         }
         let beside = variants_beside(path);
-        let other = Provenance::read(&beside).ok().flatten();
-        let of_these =
-            other.filter(|other| (Provenance { output: made.output, ..other.clone() }).key() == made.key());
-        let variants = if of_these.is_some() { rows::read(&beside)? } else { Vec::new() };
+        let variants = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
         Ok(AnswerTable { rows, variants, made: vec![made], ..AnswerTable::default() })
     }
 

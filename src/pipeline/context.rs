@@ -140,11 +140,8 @@ impl Context {
 
     /// Removes, once `out` is replaced, what the same call as its present content wrote beside it.
     pub fn remove_former(&self, out: &Path, beside: PathBuf) {
-        let [made, other] = [out, &beside].map(|path| Provenance::read(path).ok().flatten());
-        if let (Some(made), Some(other)) = (made, other)
-            && made.output != other.output
-            && made.key() == (Provenance { output: made.output, ..other }).key()
-        {
+        let made = Provenance::read(out).ok().flatten();
+        if made.is_some_and(|made| made.is_beside(&beside)) {
             locked(&self.former).push(beside);
         }
     }

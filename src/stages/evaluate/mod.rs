@@ -174,17 +174,7 @@ impl Stage for Evaluate {
         let objects = self.objects(&mut reader, &models)?;
         context.tell(reader.warnings, reader.readings);
         let models_of = |object: &Object| models.rocking_object(object);
-        let mut rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
-        if let Question::Curve { general, site: None } = &question
-            && self.over.is_none()
-        {
-            let general = GenericSites { over: Peak::Pga, ..*general };
-            let over_pga = Question::Curve { general, site: None };
-            let others = assess(&objects, &over_pga, &models_of, &context.bar(objects.len()))?;
-            for (row, other) in rows.iter_mut().zip(others) {
-                row.over_pga = other.is_answered().then(|| Box::new(other));
-            }
-        }
+        let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         warn(&rows, context);
         let all = answer::table(&rows, &question)?;
         let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
@@ -248,7 +238,7 @@ impl Evaluate {
                 let problem = format!("over {over}: expected a hazard curve of {over}, of no other peak");
                 Err(UsageError::because(problem))
             }
-            site => Ok(Question::Curve { general, site }),
+            site => Ok(Question::Curve { general, site, beside: self.over.is_none().then_some(Peak::Pga) }),
         }
     }
 
