@@ -29,6 +29,7 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
+use crate::figures::common::by;
 use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
@@ -339,13 +340,8 @@ impl AnswerTable {
 
     /// How the files of people were read, each once.
     pub fn readings(&self) -> Vec<&Reading> {
-        let mut readings: Vec<&Reading> = Vec::new();
-        for reading in self.made.iter().flat_map(|made| &made.readings) {
-            if !readings.contains(&reading) {
-                readings.push(reading);
-            }
-        }
-        readings
+        let readings = self.made.iter().flat_map(|made| &made.readings);
+        by(readings, |reading| reading).iter().map(|same| same[0]).collect()
     }
 
     /// What answers are for, after a place: `; hazard: pga.csv`.

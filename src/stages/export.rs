@@ -95,17 +95,17 @@ impl Stage for Export {
         context.tell(reader.warnings, reader.readings);
         let ids = distinct_ids(objects.iter().map(|object| object.name.as_str()));
         let bar = context.bar(objects.len());
-        let functions = objects.iter().zip(&ids).map(|(object, id)| {
+        let mut functions = Vec::new();
+        for (object, id) in objects.iter().zip(&ids) {
             bar.advance(1)?;
             let (rocking, warnings) = models.rocking_object(object)?;
             let warnings = warnings.into_iter().chain(rocking.structure_warnings());
             let warnings = warnings.chain(unusual_motions(self.magnitude, None));
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            let functions = self.peaks().into_iter().map(|peak| self.function(id, peak, object, &rocking));
-            functions.collect()
-        });
-        let functions: Vec<Function> =
-            functions.collect::<anyhow::Result<Vec<Vec<Function>>>>()?.into_iter().flatten().collect();
+            for peak in self.peaks() {
+                functions.push(self.function(id, peak, object, &rocking)?);
+            }
+        }
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
             id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },

@@ -93,9 +93,9 @@ impl Inspect {
         let bytes = source::read(&source::split_sheet(&self.file).0).map_err(unreadable)?;
         let column = self.column.clone();
         let options = ReadOptions { dt_s: self.dt, unit: self.unit, column, ..ReadOptions::default() };
-        let motions = unpack(bytes)?.iter().map(|member| read_records(&member.bytes, &options)).collect();
+        let motions = unpack(bytes)?.into_iter().map(|member| read_records(&member.bytes, &options));
         let mut reading = Reading::default();
-        for motion in Result::<Vec<_>, _>::and_then(motions, |motions| Ok(motions.concat()))? {
+        for motion in motions.collect::<Result<Vec<_>, InputError>>()?.concat() {
             let samples = &motion.acceleration_m_s2;
             let heading = motion.origin.component.unwrap_or("acceleration".to_string());
             let pga_g = significant(peak(samples) / G_M_S2, 3);
