@@ -48,13 +48,17 @@ impl Kind {
 impl Inspect {
     pub(super) fn own(&self) -> anyhow::Result<String> {
         let Own { kind, reading } = self.read()?;
-        let table = readings::table(&reading);
         match self.format {
             Format::Json => Ok(serde_json::to_string_pretty(&Own { kind, reading })? + "\n"),
-            Format::Csv => table.csv(),
+            Format::Csv => {
+                let mut csv = csv::Writer::from_writer(Vec::new());
+                reading.columns.iter().try_for_each(|column| csv.serialize(column))?;
+                Ok(String::from_utf8(csv.into_inner()?)?)
+            }
             Format::Text => {
+                let table = readings::table(&reading).text(None);
                 let first = format!("{}: {kind}, {} rows", reading.file, reading.rows);
-                Ok(above(&[vec![first], reading.others].concat(), &table.text(None)))
+                Ok(above(&[vec![first], reading.others].concat(), &table))
             }
         }
     }
