@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -178,8 +179,13 @@ impl Context {
     }
 
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
-        let mut writer = self.create(path, &rows::schema::<R>())?;
-        writer.append(&rows::batch(rows)?)?;
+        self.write_batches(path, &[rows::batch(rows)?], summary)
+    }
+
+    /// Writes batches of one schema, at least one.
+    pub fn write_batches(&self, path: &Path, all: &[RecordBatch], summary: &str) -> anyhow::Result<()> {
+        let mut writer = self.create(path, &all[0].schema())?;
+        all.iter().try_for_each(|rows| writer.append(rows))?;
         Ok(self.finish(writer, summary)?)
     }
 

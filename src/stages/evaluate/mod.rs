@@ -190,7 +190,7 @@ impl Stage for Evaluate {
         let document = Document::of_answers(&table);
         let text = document.text(self.out.as_deref());
         if let [beside, _] = &self.outputs()[..] {
-            write_table(beside, &[answer::variant_table(&table.variants, &question)?], &text, context)?;
+            context.write_batches(beside, &[answer::variant_table(&table.variants, &question)?], &text)?;
         }
         let rows = match question {
             Question::Curve { .. } => answer::points(&table.rows)?,
@@ -292,7 +292,7 @@ impl Evaluate {
     ) -> anyhow::Result<()> {
         let Some(out) = self.outputs().pop() else { return Ok(()) };
         let content = match &*ending(&out) {
-            "parquet" => return write_table(&out, rows, text, context),
+            "parquet" => return context.write_batches(&out, rows, text),
             "csv" => frame::show(&framed(rows)?, Format::Csv)?.into_bytes(),
             "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
             "xlsx" => workbook(&framed(rows)?)?,
@@ -302,12 +302,6 @@ impl Evaluate {
         };
         context.write_file(&out, &content)
     }
-}
-
-fn write_table(out: &Path, rows: &[RecordBatch], text: &str, context: &Context) -> anyhow::Result<()> {
-    let mut writer = context.create(out, &rows[0].schema())?;
-    rows.iter().try_for_each(|rows| writer.append(rows))?;
-    Ok(context.finish(writer, text)?)
 }
 
 fn ending(path: &Path) -> String {
