@@ -9,7 +9,6 @@ use arrow_schema::Field;
 use clap::{Args, ValueHint};
 use parquet::arrow::arrow_reader::ArrowReaderMetadata;
 use parquet::arrow::arrow_reader::statistics::StatisticsConverter;
-use parquet::errors::ParquetError;
 use rockfrag_core::units::Unit;
 use serde::{Deserialize, Serialize};
 
@@ -79,7 +78,7 @@ impl Inspect {
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
         let (file, fields) = (table.metadata(), table.schema().fields());
-        let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, file)).collect();
+        let columns = fields.iter().map(|field| column(field, file)).collect::<Result<Vec<_>, _>>()?;
         let made = Provenance::from_footer(file.metadata());
         if self.format == Format::Json {
             let (file, rows) = (self.file.display().to_string(), table.rows());
@@ -121,23 +120,19 @@ fn cut(text: &str) -> String {
     lines.collect()
 }
 
-fn column(field: &Field, file: &ArrowReaderMetadata) -> ColumnRow {
+fn column(field: &Field, file: &ArrowReaderMetadata) -> parquet::errors::Result<ColumnRow> {
     let (unit, meaning) = dictionary::entry(field.name()).unwrap_or_default();
     let groups = file.metadata().row_groups();
-    let known = StatisticsConverter::try_new(field.name(), file.schema(), file.parquet_schema()).ok();
-    let known = known.map(|known| known.with_missing_null_counts_as_zero(false));
-    let ends = |of: Option<Result<ArrayRef, ParquetError>>| of?.ok().and_then(|ends| numbers(&ends));
-    let least =
-        ends(known.as_ref().map(|known| known.row_group_mins(groups))).into_iter().flatten().flatten();
-    let most =
-        ends(known.as_ref().map(|known| known.row_group_maxes(groups))).into_iter().flatten().flatten();
-    let nulls = known.and_then(|known| known.row_group_null_counts(groups).ok()?.iter().sum::<Option<u64>>());
-    ColumnRow {
+    let known = StatisticsConverter::try_new(field.name(), file.schema(), file.parquet_schema())?;
+    let known = known.with_missing_null_counts_as_zero(false);
+    let ends = |ends: &ArrayRef| numbers(ends).into_iter().flatten().flatten();
+    let nulls = known.row_group_null_counts(groups)?.iter().sum::<Option<u64>>();
+    Ok(ColumnRow {
         column: field.name().clone(),
         unit: if unit == "1" { String::new() } else { unit.to_string() },
-        minimum: least.reduce(f64::min),
-        maximum: most.reduce(f64::max),
+        minimum: ends(&known.row_group_mins(groups)?).reduce(f64::min),
+        maximum: ends(&known.row_group_maxes(groups)?).reduce(f64::max),
         nulls: nulls.filter(|_| !groups.is_empty()).map(|nulls| nulls as i64),
         meaning: meaning.to_string(),
-    }
+    })
 }
