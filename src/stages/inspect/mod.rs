@@ -5,7 +5,7 @@ mod own;
 use std::path::PathBuf;
 
 use arrow_array::ArrayRef;
-use arrow_schema::Field;
+use arrow_schema::{DataType, Field};
 use clap::{Args, ValueHint};
 use parquet::arrow::arrow_reader::ArrowReaderMetadata;
 use parquet::arrow::arrow_reader::statistics::StatisticsConverter;
@@ -122,8 +122,10 @@ fn cut(text: &str) -> String {
 
 fn column(field: &Field, file: &ArrowReaderMetadata) -> parquet::errors::Result<ColumnRow> {
     let (unit, meaning) = dictionary::entry(field.name()).unwrap_or_default();
-    let groups = file.metadata().row_groups();
-    let known = StatisticsConverter::try_new(field.name(), file.schema(), file.parquet_schema())?;
+    let (groups, columns) = (file.metadata().row_groups(), file.parquet_schema());
+    let leaf = (0..columns.num_columns()).find(|leaf| columns.get_column_root(*leaf).name() == field.name());
+    let one = if let DataType::List(item) = field.data_type() { item } else { field };
+    let known = StatisticsConverter::from_column_index(leaf.unwrap_or_default(), one, columns)?;
     let known = known.with_missing_null_counts_as_zero(false);
     let ends = |ends: &ArrayRef| numbers(ends).into_iter().flatten().flatten();
     let nulls = known.row_group_null_counts(groups)?.iter().sum::<Option<u64>>();
