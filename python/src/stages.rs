@@ -7,7 +7,7 @@ use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use rockfrag::cli::calls;
-use rockfrag::pipeline::call::{Call, Done, Planned};
+use rockfrag::pipeline::call::{Call, Planned};
 use rockfrag::pipeline::context::Common;
 use rockfrag::pipeline::options::Given;
 use rockfrag::stages::inspect::Inspect;
@@ -59,8 +59,8 @@ pub fn call(
 
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, common: &Common, made: &mut Planned) -> anyhow::Result<Made> {
-    let Done { summary, warnings, .. } = call.run(common, made)?;
-    Ok((call.name.clone(), call.stage.outputs(), summary, warnings.lines()))
+    let made = call.run(common, made)?.made;
+    Ok((call.name.clone(), call.stage.outputs(), made.summary, made.warnings.lines()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

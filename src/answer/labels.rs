@@ -1,16 +1,14 @@
 //! The own columns of the list of the objects: texts behind the columns of answers.
 
 use std::borrow::Cow;
-use std::path::Path;
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, RecordBatch, StringArray};
 use arrow_schema::DataType;
 
 use super::{Answer, CurveRow};
-use crate::table::TableError;
-use crate::table::file::ParquetTable;
-use crate::table::rows;
+use crate::table::columns::Batch;
+use crate::table::{TableError, rows};
 
 /// What a list says of an object in words of its own: headings and cells.
 pub type Labels = Vec<(String, String)>;
@@ -32,23 +30,17 @@ pub fn columns<'a>(answers: impl Iterator<Item = &'a Answer>) -> anyhow::Result<
     Ok(Some(RecordBatch::try_from_iter_with_nullable(columns)?))
 }
 
-/// The labels of each row of a file of answers: its texts that are of no answer.
-pub fn read(path: &Path) -> Result<Vec<Labels>, TableError> {
-    let table = ParquetTable::open(path)?;
-    let texts = table.schema().fields().iter().filter(|field| *field.data_type() == DataType::Utf8);
-    let names: Vec<&String> = texts.map(|field| field.name()).filter(|name| !is_of_answers(name)).collect();
-    let mut all = Vec::new();
-    for batch in table.batches(|column| names.iter().any(|name| *name == column)) {
-        let batch = batch?;
-        let cells = names.iter().map(|name| batch.texts(name)).collect::<Result<Vec<_>, _>>()?;
-        all.extend((0..batch.rows.num_rows()).map(|row| {
-            let label = |(name, cells): (&&String, &Vec<Option<Cow<str>>>)| {
-                (name.to_string(), cells[row].as_deref().unwrap_or_default().to_string())
-            };
-            names.iter().zip(&cells).map(label).collect()
-        }));
-    }
-    Ok(all)
+/// The labels of each row of a batch of answers: its texts that are of no answer.
+pub fn read(batch: &Batch) -> Result<Vec<Labels>, TableError> {
+    let schema = batch.rows.schema();
+    let fields = schema.fields().iter().filter(|field| *field.data_type() == DataType::Utf8);
+    let names = fields.map(|field| field.name()).filter(|name| !is_of_answers(name));
+    let columns = names.map(|name| Ok((name, batch.texts(name)?))).collect::<Result<Vec<_>, TableError>>()?;
+    let labels = |row: usize| {
+        let cell = |cells: &[Option<Cow<str>>]| cells[row].as_deref().unwrap_or_default().to_string();
+        columns.iter().map(|(name, cells)| (name.to_string(), cell(cells))).collect()
+    };
+    Ok((0..batch.rows.num_rows()).map(labels).collect())
 }
 
 fn is_of_answers(name: &str) -> bool {

@@ -29,12 +29,13 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
+use crate::figures::common::by;
 use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
-use crate::table::TableError;
+use crate::table::file::ParquetTable;
 use crate::table::provenance::Provenance;
-use crate::table::rows;
+use crate::table::{TableError, rows};
 pub use at_site::AtSite;
 pub use labels::Labels;
 pub use row::{
@@ -50,8 +51,8 @@ pub enum Question {
     /// probability of overturning is a target.
     Hazard { site: Site, years: f64, target: Option<f64> },
     /// What share of the motions of each intensity has the effect: at the site of a hazard curve, or in
-    /// general.
-    Curve { general: GenericSites, site: Option<Site> },
+    /// general; and the same over the peak `beside`.
+    Curve { general: GenericSites, site: Option<Site>, beside: Option<Peak> },
 }
 
 /// What is predicted for an object: a row of the file that evaluate writes.
@@ -132,8 +133,7 @@ pub fn assess(
         .par_iter()
         .map(|object| {
             progress.advance(1)?;
-            let (answer, known) = Answer::new(object, question, models)?;
-            Ok((Answer { labels: object.labels.clone(), ..answer }, known))
+            Answer::new(object, question, models)
         })
         .collect();
     // The first error in the order of the objects, whichever thread meets one first.
@@ -167,19 +167,15 @@ fn of_list(answers: &[AnswerOfObject], question: &Question) -> ListProbabilities
 
 impl Answer {
     fn new(object: &Object, question: &Question, models: ModelsOf) -> anyhow::Result<AnswerOfObject> {
+        let mut answer = Answer { labels: object.labels.clone(), ..Answer::default() };
         if let Err(reason) = object.sides() {
-            let warnings = Some(reason.to_string());
-            let answer = Answer {
-                object: ObjectColumns::new(object, None),
-                uncertainty: UncertaintyColumns { warnings, ..UncertaintyColumns::default() },
-                ..Answer::default()
-            };
+            answer.object = ObjectColumns::new(object, None);
+            answer.uncertainty.warnings = Some(reason.to_string());
             return Ok((answer, None));
         }
         let (rocking, mut warnings) = models(object)?;
         let weaker = &rocking.directions[0];
-        let columns = ObjectColumns::new(object, Some(weaker));
-        let mut answer = Answer { object: columns, ..Answer::default() };
+        answer.object = ObjectColumns::new(object, Some(weaker));
         let (budget, magnitude, motion) = match question {
             Question::Motion(motion) => {
                 let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking);
@@ -200,7 +196,13 @@ impl Answer {
                 warnings.extend(rates.warnings);
                 (rates.budget, rates.magnitude, rates.motion)
             }
-            Question::Curve { general, site } => {
+            Question::Curve { general, site, beside } => {
+                if let Some(over) = *beside {
+                    let general = GenericSites { over, ..*general };
+                    let other = Question::Curve { general, site: None, beside: None };
+                    let (other, _) = Answer::new(object, &other, models)?;
+                    answer.over_pga = Some(Box::new(other)).filter(|other| other.is_answered());
+                }
                 let at_site = site.as_ref().and_then(|site| site.fragility(&rocking));
                 let fragility = at_site.unwrap_or_else(|| general.fragility(&rocking));
                 answer.fragility = FragilityColumns::new(&fragility);
@@ -305,17 +307,16 @@ impl AnswerTable {
     /// Reads the answers of a file, and the variants beside it.
     pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
         let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let mut rows: Vec<Answer> = rows::read(path)?;
-        rows.iter_mut().zip(labels::read(path)?).for_each(|(answer, labels)| answer.labels = labels);
-        if rows.iter().any(|answer| answer.fragility.over.is_some()) {
-            rows = with_points(rows, &rows::read(path)?);
+        let mut rows = Vec::new();
+        for batch in ParquetTable::open(path)?.batches(|_| true) {
+            let batch = batch?;
+            let points = rows::from_batch::<CurveRow>(&batch)?.into_iter().zip(labels::read(&batch)?);
+            for (answer, (point, labels)) in rows::from_batch::<Answer>(&batch)?.into_iter().zip(points) {
+                add(&mut rows, Answer { labels, file: file.to_string(), ..answer }, &point);
+            }
         }
-        rows.iter_mut().for_each(|answer| answer.file = file.to_string());
         let beside = variants_beside(path);
-        let other = Provenance::read(&beside).ok().flatten();
-        let of_these =
-            other.filter(|other| (Provenance { output: made.output, ..other.clone() }).key() == made.key());
-        let variants = if of_these.is_some() { rows::read(&beside)? } else { Vec::new() };
+        let variants = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
         Ok(AnswerTable { rows, variants, made: vec![made], ..AnswerTable::default() })
     }
 
@@ -339,13 +340,8 @@ impl AnswerTable {
 
     /// How the files of people were read, each once.
     pub fn readings(&self) -> Vec<&Reading> {
-        let mut readings: Vec<&Reading> = Vec::new();
-        for reading in self.made.iter().flat_map(|made| &made.readings) {
-            if !readings.contains(&reading) {
-                readings.push(reading);
-            }
-        }
-        readings
+        let readings = self.made.iter().flat_map(|made| &made.readings);
+        by(readings, |reading| reading).iter().map(|same| same[0]).collect()
     }
 
     /// What answers are for, after a place: `; hazard: pga.csv`.
@@ -364,20 +360,15 @@ pub fn variants_beside(path: &Path) -> PathBuf {
     path.with_extension("variants.parquet")
 }
 
-/// Gives each answer of a table of points its points, and what is over PGV that over PGA.
-fn with_points(rows: Vec<Answer>, points: &[CurveRow]) -> Vec<Answer> {
-    let mut answers: Vec<Answer> = Vec::new();
-    for (row, point) in rows.into_iter().zip(points) {
-        let of = |answer: &Answer| (answer.object.structure.clone(), answer.fragility.over);
-        if answers.last().is_none_or(|last| of(last) != of(&row)) {
-            answers.push(Answer { p: StateColumns::default(), ..row });
-        }
-        answers.last_mut().into_iter().for_each(|answer| answer.points.extend(point.point()));
-    }
-    let is_beside = |one: &Answer, next: &Answer| {
-        one.object.structure == next.object.structure
-            && [one, next].map(|of| of.fragility.over) == [Some(Peak::Pgv), Some(Peak::Pga)]
+/// Adds a row of a file: of a fragility it is a point, that over PGA beside the same object over PGV.
+fn add(answers: &mut Vec<Answer>, row: Answer, point: &CurveRow) {
+    let Some(over) = row.fragility.over else { return answers.push(row) };
+    let row = Answer { p: StateColumns::default(), ..row };
+    let before = answers.last_mut().filter(|before| before.object.structure == row.object.structure);
+    let answer = match before.and_then(|before| Some((before.fragility.over?, before))) {
+        Some((peak, before)) if peak == over => before,
+        Some((Peak::Pgv, before)) => before.over_pga.get_or_insert_with(|| Box::new(row)),
+        _ => answers.push_mut(row),
     };
-    let joined = answers.chunk_by(is_beside);
-    joined.map(|of| Answer { over_pga: of.get(1).cloned().map(Box::new), ..of[0].clone() }).collect()
+    answer.points.extend(point.point());
 }

@@ -196,13 +196,13 @@ impl RateColumns {
     /// What is unknown of the rate of overturning.
     pub fn budget(&self) -> Option<Budget> {
         let change = |words: &str| {
-            let [source, low, high] = words.split(' ').collect::<Vec<_>>().try_into().ok()?;
-            let [low, high] = [low, high].map(|number: &str| number.parse().ok());
-            Some(LowHigh { source: source.parse().ok()?, low: low?, high: high? })
+            let mut words = words.split(' ');
+            let source = words.next()?.parse().ok()?;
+            let mut number = || words.next()?.parse().ok();
+            Some(LowHigh { source, low: number()?, high: number()? })
         };
-        let changes: Option<Vec<LowHigh<f64>>> =
-            self.rate_changes.as_ref()?.split_terminator(BETWEEN).map(change).collect();
-        Some(Budget { changes: changes? })
+        let changes = self.rate_changes.as_ref()?.split_terminator(BETWEEN).map(change);
+        Some(Budget { changes: changes.collect::<Option<_>>()? })
     }
 }
 

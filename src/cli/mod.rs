@@ -18,13 +18,13 @@ use serde_json::{Value, json};
 use crate::inputs::Reading;
 use crate::number::{LONGEST_TEXT, shown, visible};
 use crate::pipeline::UsageError;
-use crate::pipeline::call::{Call, Done, Planned, is_view};
+use crate::pipeline::call::{Call, Planned, is_view};
 use crate::pipeline::context::{COMMON, Common, threads_of};
 use crate::pipeline::options::{SeveralErrors, is_path, name_of, on_line};
 use crate::source::silence_decoder_panics;
 use crate::stages::{self, StageKind, init, inspect};
 use crate::table::frame::Format;
-use crate::table::provenance::text_of;
+use crate::table::provenance::{Provenance, text_of};
 
 const NO_THREAD: &str = "a thread cannot start";
 /// Letters of an error, which may name what a file says.
@@ -182,9 +182,9 @@ fn run_one(call: &Call) -> anyhow::Result<()> {
     if !done.ran && !call.common.quiet {
         tell(&format!("{}: up to date", call.name));
     }
-    print(&done.summary, call.stage.format())?;
-    tell_gaps(&done);
-    warn(&done.warnings);
+    print(&done.made.summary, call.stage.format())?;
+    tell_gaps(&done.made);
+    warn(&done.made.warnings);
     Ok(())
 }
 
@@ -201,10 +201,10 @@ fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
             let took = if done.ran { format!("{seconds:.2} s") } else { "up to date".to_string() };
             tell(&format!("{:20} {took}", call.name));
         }
-        warnings.join(&done.warnings);
-        tell_gaps(&done);
+        warnings.join(&done.made.warnings);
+        tell_gaps(&done.made);
         if place == answer {
-            printed = done.summary;
+            printed = done.made.summary;
         }
     }
     warn(&warnings);
@@ -212,9 +212,9 @@ fn run_all(calls: &[Call], common: &Common) -> anyhow::Result<()> {
 }
 
 /// Names the columns that are not understood where what is printed does not.
-fn tell_gaps(done: &Done) {
-    let gaps = done.readings.iter().filter_map(Reading::gaps);
-    gaps.filter(|gaps| !done.summary.contains(gaps)).for_each(|gaps| tell(&gaps));
+fn tell_gaps(made: &Provenance) {
+    let gaps = made.readings.iter().filter_map(Reading::gaps);
+    gaps.filter(|gaps| !made.summary.contains(gaps)).for_each(|gaps| tell(&gaps));
 }
 
 fn warn(warnings: &Warnings) {

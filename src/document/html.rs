@@ -27,16 +27,15 @@ impl Document {
             write_figure(figure, if is_said { "" } else { &figure.title })
         };
         let is_beside = !self.tables.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
-        let all = self.tables.iter().take(1).flat_map(Table::columns);
-        let (labels, mut columns): (Vec<_>, Vec<_>) = all.partition(|column| column.is_label);
-        let mut below = columns.split_off(columns.len().min(if is_beside { BESIDE } else { usize::MAX }));
-        // Labels stand behind the names, where there is room for both.
+        let mut columns: Vec<Column> = self.tables.iter().take(1).flat_map(Table::columns).collect();
+        let mut below = Vec::new();
         if is_beside {
-            below.splice(..0, labels);
-            // Each part has the names.
-            below.splice(..0, columns.first().filter(|_| !below.is_empty()).cloned());
-        } else {
-            columns.splice(columns.len().min(1)..columns.len().min(1), labels);
+            // Labels stand behind the names, where there is room for both: each part has the names.
+            let (labels, first): (Vec<_>, Vec<_>) = columns.into_iter().partition(|column| column.is_label);
+            let (beside, others) = first.split_at(first.len().min(BESIDE));
+            let names = &beside[..usize::from(!(labels.is_empty() && others.is_empty()))];
+            below = [names, &labels, others].concat();
+            columns = beside.to_vec();
         }
         let told = html! {
             @if !(self.tables.is_empty() && self.notes.is_empty()) {

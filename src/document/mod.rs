@@ -26,7 +26,7 @@ use anyhow::Context;
 
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
-use crate::chart::text::{literal, words};
+use crate::chart::text::literal;
 pub use workbook::workbook;
 
 /// What is told of rows, from top to bottom. All texts are marked, see [`crate::chart::text`].
@@ -97,16 +97,6 @@ impl Table {
 
     pub fn explained(self, caption: &str) -> Table {
         Table { caption: caption.to_string(), ..self }
-    }
-
-    /// # Errors
-    /// If the memory is too little.
-    pub fn csv(&self) -> anyhow::Result<String> {
-        let mut csv = csv::Writer::from_writer(Vec::new());
-        for row in [&self.heads].into_iter().chain(&self.rows) {
-            csv.write_record(row.iter().map(|cell| words(cell)))?;
-        }
-        Ok(String::from_utf8(csv.into_inner()?)?)
     }
 
     fn columns(&self) -> impl Iterator<Item = Column<'_>> {

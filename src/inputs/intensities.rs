@@ -9,7 +9,7 @@ use rockfrag_core::motion::{Peaks, validate_medians};
 use rockfrag_core::units::Quantity;
 use rockfrag_core::warning::{Warning, Warnings};
 
-use super::hazard::{expect_understood, peak};
+use super::hazard::{Told, expect_understood, peak};
 use super::roles::describes_object;
 use super::words::{is_vertical, means};
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
@@ -20,6 +20,7 @@ use crate::table::dictionary;
 pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>> {
     let read = reader.read(path).and_then(|grid| {
         expect_intensities(&grid)?;
+        Told::new(&grid)?.expect_same(&grid.headings)?;
         let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
         let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
         expect_understood(&grid, &meanings)?;

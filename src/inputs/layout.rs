@@ -286,7 +286,7 @@ fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
         "" | "-" => Ok(heading.clone()),
         "a" | "[a]" | "(a)" => Ok(heading.with_unit("years").unwrap_or(heading.clone())),
         unit => heading
-            .with_unit(if units.is_comment && at == 0 { uncommented(unit) } else { unit })
+            .with_unit(if Unit::parse(unit).is_some() { unit } else { uncommented(unit) })
             .ok_or_else(|| InputError::Units { heading: heading.text.clone(), unit: unit.to_string() }),
     };
     headings.iter().enumerate().map(with_unit).collect()

@@ -36,8 +36,8 @@ struct List<'a> {
     defaults: ListDefaults,
 }
 
-/// Reads a list: the objects of its rows, and what is not known of them.
-pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result<(Vec<Object>, Warnings)> {
+/// Reads a list: the objects of its rows. The reader keeps what is not known of them.
+pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result<Vec<Object>> {
     let list = |reader: &mut Reader| {
         let mut grid = reader.read(path)?;
         grid.leave_out("a row of totals", |grid, row| {
@@ -47,7 +47,8 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
         });
         let list = List::new(&grid, defaults)?;
         reader.tell(path, &grid, list.meanings(), list.unread());
-        Ok((list.objects(), list.doubts()))
+        reader.warnings.extend(list.doubts());
+        Ok(list.objects())
     };
     list(reader).map_err(|error: InputError| error.in_file(path))
 }

@@ -4,6 +4,8 @@
 use std::path::Path;
 use std::str::FromStr;
 
+use rockfrag_core::warning::Warnings;
+
 use super::error::{InputError, Result};
 use super::grid::Grid;
 use super::hazard::contradict;
@@ -45,6 +47,8 @@ pub struct Reader<'a> {
     ignored: &'a [String],
     /// Headings of files that were seen.
     seen: Vec<String>,
+    /// Doubts about what the files say.
+    pub warnings: Warnings,
     /// How each file was read.
     pub readings: Vec<Reading>,
 }

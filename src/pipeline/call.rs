@@ -6,17 +6,16 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
-use rockfrag_core::warning::Warnings;
 use serde_json::Value;
 
 use super::Stage;
 use super::context::{Common, Context};
 use super::options::UsageError;
 use super::paths::Read;
-use crate::inputs::Reading;
 use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::file::tables;
+use crate::table::frame::Format;
 use crate::table::keys::{files_below, names_below, read_file, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 
@@ -38,12 +37,10 @@ pub struct Plan {
     pub outputs: Vec<PathBuf>,
 }
 
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Done {
-    pub summary: String,
-    pub warnings: Warnings,
-    /// How files of people were read.
-    pub readings: Vec<Reading>,
+    /// With what it prints, its warnings, and how files of people were read.
+    pub made: Provenance,
     /// Whether the stage ran; otherwise its files were up to date.
     pub ran: bool,
 }
@@ -131,10 +128,8 @@ impl Call {
             };
         }
         let made = last?;
-        match self.stage.printed(&made.summary) {
-            Ok(Some(summary)) => {
-                Ok(Done { summary, warnings: made.warnings, readings: made.readings, ran: false })
-            }
+        match self.stage.format() {
+            Format::Text => Ok(Done { made, ran: false }),
             _ => Err("what it prints is not in its file".to_string()),
         }
     }
@@ -157,8 +152,7 @@ impl Call {
             Ok(()) => error,
         })?;
         context.persist()?;
-        let (warnings, readings) = (context.warnings(), context.readings());
-        Ok(Done { summary, warnings, readings, ran: true })
+        Ok(Done { made: context.made(&summary), ran: true })
     }
 }
 

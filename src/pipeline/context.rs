@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use arrow_array::RecordBatch;
 use arrow_schema::SchemaRef;
 use clap::{Args, ValueHint};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -112,17 +113,16 @@ impl Context {
         locked(&self.warnings).extend(warnings);
     }
 
-    pub fn warnings(&self) -> Warnings {
-        locked(&self.warnings).clone()
-    }
-
-    /// Keeps how files of people were read.
-    pub fn tell(&self, readings: Vec<Reading>) {
+    /// Keeps how files of people were read, and doubts about what they say.
+    pub fn tell(&self, warnings: Warnings, readings: Vec<Reading>) {
+        self.warn(warnings);
         locked(&self.readings).extend(readings);
     }
 
-    pub fn readings(&self) -> Vec<Reading> {
-        locked(&self.readings).clone()
+    /// What is planned, with what is known by now.
+    pub fn made(&self, summary: &str) -> Provenance {
+        let (warnings, readings) = (locked(&self.warnings).clone(), locked(&self.readings).clone());
+        Provenance { summary: summary.to_string(), warnings, readings, ..self.plan.made.clone() }
     }
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
@@ -134,19 +134,15 @@ impl Context {
 
     pub fn finish(&self, writer: TableWriter, summary: &str) -> Result<(), TableError> {
         let output = self.plan.outputs.iter().position(|output| output == writer.path()).unwrap_or_default();
-        let (summary, warnings, readings) = (summary.to_string(), self.warnings(), self.readings());
-        let made = Provenance { summary, warnings, readings, ..self.plan.output(output).with_before() };
+        let made = Provenance { output, ..self.made(summary) }.with_before();
         locked(&self.written).push(writer.finish(&made)?);
         Ok(())
     }
 
     /// Removes, once `out` is replaced, what the same call as its present content wrote beside it.
     pub fn remove_former(&self, out: &Path, beside: PathBuf) {
-        let [made, other] = [out, &beside].map(|path| Provenance::read(path).ok().flatten());
-        if let (Some(made), Some(other)) = (made, other)
-            && made.output != other.output
-            && made.key() == (Provenance { output: made.output, ..other }).key()
-        {
+        let made = Provenance::read(out).ok().flatten();
+        if made.is_some_and(|made| made.is_beside(&beside)) {
             locked(&self.former).push(beside);
         }
     }
@@ -183,8 +179,13 @@ impl Context {
     }
 
     pub fn write<R: Row>(&self, path: &Path, rows: &[R], summary: &str) -> anyhow::Result<()> {
-        let mut writer = self.create(path, &rows::schema::<R>())?;
-        writer.append(&rows::batch(rows)?)?;
+        self.write_batches(path, &[rows::batch(rows)?], summary)
+    }
+
+    /// Writes batches of one schema, at least one.
+    pub fn write_batches(&self, path: &Path, all: &[RecordBatch], summary: &str) -> anyhow::Result<()> {
+        let mut writer = self.create(path, &all[0].schema())?;
+        all.iter().try_for_each(|rows| writer.append(rows))?;
         Ok(self.finish(writer, summary)?)
     }
 

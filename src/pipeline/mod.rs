@@ -40,12 +40,7 @@ pub trait Stage {
         Ok(())
     }
 
-    /// Returns the text to print of tables that are up to date, by the text in their footer; none if only
-    /// running the stage gives it.
-    fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
-        Ok(Some(summary.to_string()))
-    }
-
+    /// Returns the format of what it prints. Tables that are up to date have the text alone in their footer.
     fn format(&self) -> Format {
         Format::Text
     }

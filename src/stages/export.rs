@@ -10,7 +10,6 @@ use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::plausibility::MAGNITUDES;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
-use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::ModelArgs;
@@ -92,22 +91,21 @@ impl Stage for Export {
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
         let mut reader = Reader::default();
-        let (objects, doubts) = self.objects(&mut reader)?;
-        context.warn(doubts);
-        context.tell(reader.readings);
+        let objects = self.objects(&mut reader)?;
+        context.tell(reader.warnings, reader.readings);
         let ids = distinct_ids(objects.iter().map(|object| object.name.as_str()));
         let bar = context.bar(objects.len());
-        let functions = objects.iter().zip(&ids).map(|(object, id)| {
+        let mut functions = Vec::new();
+        for (object, id) in objects.iter().zip(&ids) {
             bar.advance(1)?;
             let (rocking, warnings) = models.rocking_object(object)?;
             let warnings = warnings.into_iter().chain(rocking.structure_warnings());
             let warnings = warnings.chain(unusual_motions(self.magnitude, None));
             context.warn(warnings.map(|warning| (warning, object.name.clone())).collect());
-            let functions = self.peaks().into_iter().map(|peak| self.function(id, peak, object, &rocking));
-            functions.collect()
-        });
-        let functions: Vec<Function> =
-            functions.collect::<anyhow::Result<Vec<Vec<Function>>>>()?.into_iter().flatten().collect();
+            for peak in self.peaks() {
+                functions.push(self.function(id, peak, object, &rocking)?);
+            }
+        }
         let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
         let model = FragilityModel {
             id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },
@@ -131,10 +129,10 @@ impl Stage for Export {
 }
 
 impl Export {
-    fn objects(&self, reader: &mut Reader) -> anyhow::Result<(Vec<Object>, Warnings)> {
-        let (objects, doubts) = self.structures.objects(&Place::default(), reader)?;
+    fn objects(&self, reader: &mut Reader) -> anyhow::Result<Vec<Object>> {
+        let objects = self.structures.objects(&Place::default(), reader)?;
         objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;
-        Ok((objects, doubts))
+        Ok(objects)
     }
 
     fn peaks(&self) -> Vec<Peak> {

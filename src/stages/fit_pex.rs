@@ -8,7 +8,7 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Calibration, DemandFit, Predictors, fit_demand};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fits::{by_score, text, warnings};
+use super::shared::fits::{best_first, text, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
 use crate::pipeline::Stage;
@@ -84,10 +84,7 @@ impl Stage for FitPex {
         }
         let parameters: Vec<_> = fits.iter().flat_map(|fit| fit.parameters(self.confidence)).collect();
         let calibration = part(&self.out, "calibration");
-        let mut best_first: Vec<&DemandFit> = fits.iter().collect();
-        for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
-            its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-        }
+        let best_first = best_first(&fits, DemandFit::group, |fit| fit.held_out_log_score);
         let summary = format!(
             "cases, events, and events that the surface as shipped expects\n{}\n\
              planes (paper) below and above the transition, and laws; beta is the sd of ln demand\n{}",

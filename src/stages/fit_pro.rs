@@ -7,7 +7,7 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Calibration, CurveFit, Event, Predictors, fit_curves};
 use serde::{Deserialize, Serialize};
 
-use super::shared::fits::{CurveLine, by_score, text, warnings};
+use super::shared::fits::{CurveLine, best_first, text, warnings};
 use super::shared::motion_columns::MotionColumns;
 use super::shared::{observed, responses};
 use crate::pipeline::Stage;
@@ -83,10 +83,7 @@ impl Stage for FitPro {
         let mut summary = "cases, events, and events that the surface as shipped expects\n".to_string();
         summary += &text(&calibrations, "suite structure n n_events expected", &calibration_out)?;
         if !fits.is_empty() {
-            let mut best_first: Vec<&CurveFit> = fits.iter().collect();
-            for its in best_first.chunk_by_mut(|a, b| a.group() == b.group()) {
-                its.sort_by(|a, b| by_score(a.held_out_log_score, b.held_out_log_score));
-            }
+            let best_first = best_first(&fits, CurveFit::group, |fit| fit.held_out_log_score);
             let lines: Vec<_> = best_first.iter().map(|fit| CurveLine::new(fit, self.confidence)).collect();
             let percent = 100.0 * self.confidence;
             summary += &format!(

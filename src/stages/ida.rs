@@ -129,9 +129,8 @@ impl Stage for Ida {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let mut reader = Reader::default();
-        let (objects, warnings) = self.structures.resolve(&mut reader)?;
-        context.tell(reader.readings);
-        context.warn(warnings);
+        let objects = self.structures.resolve(&mut reader)?;
+        context.tell(reader.warnings, reader.readings);
         let structures: Vec<&Structure> = objects.iter().map(|directions| &directions[0]).collect();
         let scan = Scan::new(self.from, self.to, self.steps);
         let motions = motions::open(&self.input, None)?;

@@ -80,8 +80,7 @@ impl Stage for Simulate {
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let (structures, mut reader) = (self.structures.or_paper(), Reader::default());
-        let (objects, mut warnings) = structures.resolve(&mut reader)?;
-        context.tell(reader.readings);
+        let objects = structures.resolve(&mut reader)?;
         let motions = motions::open(&self.input, self.partition)?;
         self.expect_traced(&motions)?;
         let mut second = HashSet::new();
@@ -89,9 +88,9 @@ impl Stage for Simulate {
             second = motions::second_of_pairs(&self.input, self.partition)?;
         }
         if !second.is_empty() {
-            warnings.remove(Warning::OneDirection);
+            reader.warnings.remove(Warning::OneDirection);
         }
-        context.warn(warnings);
+        context.tell(reader.warnings, reader.readings);
         let [out, trace_file] = [out_of_partition(&self.out, self.partition), part(&self.out, "trace")];
         let mut writer = context.create(&out, &rows::schema::<ResponseRow>())?;
         let create_traces = || context.create(&trace_file, &rows::schema::<TraceRow>());

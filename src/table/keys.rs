@@ -68,6 +68,12 @@ impl Provenance {
         Ok(Provenance::from_footer(file::metadata(path)?.metadata()))
     }
 
+    /// Whether the same call wrote another file beside this one.
+    pub fn is_beside(&self, other: &Path) -> bool {
+        let other = Provenance::read(other).ok().flatten().filter(|other| other.output != self.output);
+        other.is_some_and(|other| Provenance { output: self.output, ..other }.key() == self.key())
+    }
+
     /// Returns it with what is stated of the tables that were read.
     pub fn with_before(self) -> Provenance {
         let read = self.inputs.values().flatten().filter(|file| is_table(&file.path));

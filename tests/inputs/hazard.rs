@@ -24,9 +24,9 @@ fn read(files: &[&[u8]], columns: &str) -> Result<(Hazard, Warnings), InputError
     let paths: Vec<PathBuf> = files.iter().enumerate().map(write).collect();
     let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
     let mut renames = Reader::new(&renames, &[]);
-    let read = hazard::read(&paths, &mut renames, None)?;
+    let hazard = hazard::read(&paths, &mut renames, None)?;
     renames.expect_used()?;
-    Ok(read)
+    Ok((hazard, renames.warnings))
 }
 
 /// The hazard of one peak in files that are read without a warning, or with this part of one.

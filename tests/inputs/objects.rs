@@ -28,7 +28,7 @@ fn read(list: &str, columns: &str, ground_floor: Option<u32>) -> Result<Vec<Obje
     let renames: Vec<Rename> = columns.split_terminator(',').map(|text| text.parse().unwrap()).collect();
     let mut renames = Reader::new(&renames, &[]);
     let defaults = ListDefaults { ground_floor, ..ListDefaults::default() };
-    let (objects, _) = objects::read(&path, &mut renames, &defaults)?;
+    let objects = objects::read(&path, &mut renames, &defaults)?;
     renames.expect_used()?;
     Ok(objects)
 }
@@ -236,8 +236,8 @@ fn each_column_and_line_has_a_role() {
     let told = |list: &str| {
         std::fs::write(&path, list).unwrap();
         let mut reader = Reader::default();
-        let (objects, warnings) = objects::read(&path, &mut reader, &ListDefaults::default()).unwrap();
-        (objects, reader.readings.remove(0), warnings.lines())
+        let objects = objects::read(&path, &mut reader, &ListDefaults::default()).unwrap();
+        (objects, reader.readings.remove(0), reader.warnings.lines())
     };
     let list = "No.,name,Room,Mass (kg),width,height,Value,Remarks\nRow A\n1,a,R1,80,0.5,2,100,old\n,Total,,80,,,,\n";
     let (objects, reading, _) = told(list);
@@ -265,7 +265,7 @@ fn each_word_unit_and_sign_of_a_heading_has_a_role() {
                 std::fs::write(&path, format!("Thing,W,H,{heading}\nvase,.4,2,{cell}\nurn,.4,2,{other}\n"))
                     .unwrap();
                 let mut reader = Reader::default();
-                let Ok((objects, _)) = objects::read(&path, &mut reader, &ListDefaults::default()) else {
+                let Ok(objects) = objects::read(&path, &mut reader, &ListDefaults::default()) else {
                     continue;
                 };
                 let column = &reader.readings[0].columns[3];
@@ -294,7 +294,7 @@ proptest! {
         let path = folder.path().join("list.csv");
         std::fs::write(&path, format!("name,qty,width,height,note\nfirst,1,.4,2,c\n{}\n", lines.join("\n"))).unwrap();
         let mut reader = Reader::default();
-        let (objects, _) = objects::read(&path, &mut reader, &ListDefaults::default()).unwrap();
+        let objects = objects::read(&path, &mut reader, &ListDefaults::default()).unwrap();
         let Reading { rows, others, .. } = reader.readings.remove(0);
         prop_assert_eq!(objects.len(), rows);
         prop_assert_eq!(rows + others.len(), 1 + lines.iter().filter(|line| !line.is_empty()).count());

@@ -16,19 +16,16 @@ use rockfrag_core::warning::{Warning, Warnings};
 
 use self::columns::{Frequency, Imt, Phrase, Statistic};
 pub use self::columns::{contradict, peak};
-use self::told::{Told, noted};
+pub use self::told::Told;
+use self::told::noted;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
 use crate::source;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
-/// ground-motion fields stand for. Also returns warnings about medians and motions beyond any record.
-pub fn read(
-    paths: &[PathBuf],
-    reader: &mut Reader,
-    effective_years: Option<f64>,
-) -> Result<(Hazard, Warnings)> {
+/// ground-motion fields stand for. Warnings are about medians and motions beyond any record.
+pub fn read(paths: &[PathBuf], reader: &mut Reader, effective_years: Option<f64>) -> Result<Hazard> {
     let mut found = Found::default();
     for path in paths {
         found.add(path, reader, effective_years).map_err(|error| error.in_file(path))?;
@@ -40,7 +37,8 @@ pub fn read(
         Some(bins) => Hazard::Joint(bins),
         None => joined(&found.curves, &mut found.warnings)?,
     };
-    Ok((hazard, found.warnings))
+    reader.warnings.extend(found.warnings);
+    Ok(hazard)
 }
 
 /// Whether a heading is of a hazard: it says how often, or OpenQuake wrote it.
@@ -162,6 +160,7 @@ impl Found {
         }
         openquake::name_fields(&mut grid);
         let mut told = Told::new(&grid)?;
+        told.expect_same(&grid.headings)?;
         if is_exported {
             grid = openquake::curve(&grid, &mut told)?;
         }

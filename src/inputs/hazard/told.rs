@@ -6,7 +6,7 @@ use std::path::Path;
 
 use rockfrag_core::units::Unit;
 
-use super::columns::{Imt, Phrase, Statistic};
+use super::columns::{Frequency, Imt, Phrase, Statistic};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
 
@@ -103,6 +103,23 @@ impl Told {
         let mut units = self.units.iter().filter(|unit| is_of_values(**unit));
         let first = units.next()?;
         units.all(|unit| unit == first).then_some(*first)
+    }
+
+    /// Refuses headings in another unit, or probabilities in another time, than comments name.
+    pub fn expect_same(&self, headings: &[Heading]) -> Result<()> {
+        let differs = |heading: &&Heading| {
+            let own = heading.unit.map(|own| (own, self.unit(|unit| unit.quantity == own.quantity)));
+            own.is_some_and(|(own, told)| told.is_some_and(|told| told != own))
+        };
+        let of_times = |heading: &&Heading| match (Phrase::new(&heading.text).frequency, self.years) {
+            (Some(Frequency::ProbabilityIn(years)), Some(told)) => years != told,
+            _ => false,
+        };
+        let mut headings = headings.iter().filter(|heading| differs(heading) || of_times(heading));
+        headings.next().map_or(Ok(()), |heading| {
+            let found = format!("heading '{}' against a comment", heading.text);
+            Err(InputError::unexpected(found, "the same unit, or the same years, in both"))
+        })
     }
 
     /// The measure of a curve whose headings name this one, or none. The name of a file tells where all else

@@ -32,7 +32,6 @@ use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
-use crate::table::provenance::Provenance;
 
 /// Predict the probability of rocking and overturning: under one motion, under each motion of a table, or
 /// per year at a site
@@ -158,10 +157,6 @@ impl Stage for Evaluate {
         self.model.check()
     }
 
-    fn printed(&self, summary: &str) -> anyhow::Result<Option<String>> {
-        Ok((self.format == Format::Text).then(|| summary.to_string()))
-    }
-
     fn format(&self) -> Format {
         self.format
     }
@@ -171,29 +166,18 @@ impl Stage for Evaluate {
         if let Some(path) = &self.input {
             let (rows, text) = table::evaluate(self, path, &mut reader, &models, context)?;
             reader.expect_used()?;
-            context.tell(reader.readings);
+            context.tell(reader.warnings, reader.readings);
             self.write(&rows, &text, context, &Document::default())?;
             return self.in_format(&rows, text);
         }
-        let question = self.question(&mut reader, &models, context)?;
-        let objects = self.objects(&mut reader, &models, context)?;
+        let question = self.question(&mut reader, &models)?;
+        let objects = self.objects(&mut reader, &models)?;
+        context.tell(reader.warnings, reader.readings);
         let models_of = |object: &Object| models.rocking_object(object);
-        let mut rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
-        if let Question::Curve { general, site: None } = &question
-            && self.over.is_none()
-        {
-            let general = GenericSites { over: Peak::Pga, ..*general };
-            let over_pga = Question::Curve { general, site: None };
-            let others = assess(&objects, &over_pga, &models_of, &context.bar(objects.len()))?;
-            for (row, other) in rows.iter_mut().zip(others) {
-                row.over_pga = other.is_answered().then(|| Box::new(other));
-            }
-        }
+        let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         warn(&rows, context);
         let all = answer::table(&rows, &question)?;
-        context.tell(reader.readings);
-        let made = vec![Provenance { readings: context.readings(), ..context.plan.made.clone() }];
-        let mut table = AnswerTable { rows, made, ..AnswerTable::default() };
+        let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
             let alone = objects.first().filter(|_| is_page && objects.len() == 1);
@@ -206,7 +190,7 @@ impl Stage for Evaluate {
         let document = Document::of_answers(&table);
         let text = document.text(self.out.as_deref());
         if let [beside, _] = &self.outputs()[..] {
-            write_table(beside, &[answer::variant_table(&table.variants, &question)?], &text, context)?;
+            context.write_batches(beside, &[answer::variant_table(&table.variants, &question)?], &text)?;
         }
         let rows = match question {
             Question::Curve { .. } => answer::points(&table.rows)?,
@@ -234,15 +218,16 @@ impl Evaluate {
     }
 
     /// What is asked of the objects.
-    fn question(&self, reader: &mut Reader, models: &Models, context: &Context) -> anyhow::Result<Question> {
+    fn question(&self, reader: &mut Reader, models: &Models) -> anyhow::Result<Question> {
         if self.pga.or(self.pgv).is_some() {
             let motion = self.motion()?;
-            let rarity = rarity(motion.pga_m_s2, motion.pgv_m_s).map(|rare| rare.to_string());
-            context.warn(rarity.map(|rare| (Warning::ImplausibleRecord, rare)).into_iter().collect());
+            if let Some(rare) = rarity(motion.pga_m_s2, motion.pgv_m_s) {
+                reader.warnings.add(Warning::ImplausibleRecord, rare.to_string());
+            }
             return Ok(Question::Motion(motion));
         }
         models.expect_ground()?;
-        let site = if self.hazard.is_empty() { None } else { Some(self.site(reader, context)?) };
+        let site = if self.hazard.is_empty() { None } else { Some(self.site(reader)?) };
         let over = self.over.unwrap_or(Peak::Pgv);
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
@@ -253,14 +238,13 @@ impl Evaluate {
                 let problem = format!("over {over}: expected a hazard curve of {over}, of no other peak");
                 Err(UsageError::because(problem))
             }
-            site => Ok(Question::Curve { general, site }),
+            site => Ok(Question::Curve { general, site, beside: self.over.is_none().then_some(Peak::Pga) }),
         }
     }
 
     /// Reads the hazard and what rates over it need.
-    fn site(&self, reader: &mut Reader, context: &Context) -> anyhow::Result<Site> {
-        let (mut hazard, doubts) = hazard::read(&self.hazard, reader, self.reading.effective_years)?;
-        context.warn(doubts);
+    fn site(&self, reader: &mut Reader) -> anyhow::Result<Site> {
+        let mut hazard = hazard::read(&self.hazard, reader, self.reading.effective_years)?;
         match &mut hazard {
             Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
                 *pgv_pga = self.ratio.map(PgvPgaRatio::given);
@@ -274,20 +258,14 @@ impl Evaluate {
     }
 
     /// Returns the given structures, or all fitted ones.
-    fn objects(
-        &self,
-        reader: &mut Reader,
-        models: &Models,
-        context: &Context,
-    ) -> anyhow::Result<Vec<Object>> {
+    fn objects(&self, reader: &mut Reader, models: &Models) -> anyhow::Result<Vec<Object>> {
         if !self.structures.is_given() && self.model.fits.is_some() {
             reader.expect_used()?;
             let object = |of: &Structure| Object::with_parameters(of, Restitution::Fitted(of.eta));
             return Ok(models.structures()?.iter().map(|of| object(of).at(&self.place)).collect());
         }
-        let (objects, doubts) = self.structures.objects(&self.place, reader)?;
+        let objects = self.structures.objects(&self.place, reader)?;
         reader.expect_used()?;
-        context.warn(doubts);
         let are_all = objects.iter().all(Object::is_implausible);
         match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {
             (Some(reason), Some(path)) if are_all => {
@@ -314,7 +292,7 @@ impl Evaluate {
     ) -> anyhow::Result<()> {
         let Some(out) = self.outputs().pop() else { return Ok(()) };
         let content = match &*ending(&out) {
-            "parquet" => return write_table(&out, rows, text, context),
+            "parquet" => return context.write_batches(&out, rows, text),
             "csv" => frame::show(&framed(rows)?, Format::Csv)?.into_bytes(),
             "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
             "xlsx" => workbook(&framed(rows)?)?,
@@ -324,12 +302,6 @@ impl Evaluate {
         };
         context.write_file(&out, &content)
     }
-}
-
-fn write_table(out: &Path, rows: &[RecordBatch], text: &str, context: &Context) -> anyhow::Result<()> {
-    let mut writer = context.create(out, &rows[0].schema())?;
-    rows.iter().try_for_each(|rows| writer.append(rows))?;
-    Ok(context.finish(writer, text)?)
 }
 
 fn ending(path: &Path) -> String {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
 
+use anyhow::ensure;
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
@@ -46,12 +47,10 @@ pub fn evaluate(
             vec![Batch { path: path.into(), first_row: 0, rows }]
         }
     };
-    let given = if structures.is_given() { structures.objects(&place, reader)?.0 } else { Vec::new() };
-    if given.len() > 1 {
-        return Err(UsageError::because(
-            "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table",
-        ));
-    }
+    let given = if structures.is_given() { structures.objects(&place, reader)? } else { Vec::new() };
+    let problem =
+        "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
+    ensure!(given.len() < 2, UsageError::because(problem));
     let columns = batches.first().map(|batch| batch.rows.schema());
     let column = columns.and_then(|all| STRUCTURE.into_iter().find(|name| all.index_of(name).is_ok()));
     if let Some(column) = column.filter(|_| !given.is_empty()) {
@@ -81,14 +80,10 @@ pub fn evaluate(
         evaluated.push(with_probabilities(batch, peaks, rocking_object, call.magnitude, context)?);
         bar.advance(batch.rows.num_rows())?;
     }
-    let rows: usize = batches.iter().map(|batch| batch.rows.num_rows()).sum();
-    match (given_peaks.len(), rows - given_peaks.len()) {
-        (0, _) => Err(TableError::table(path, "no row with PGA and PGV").into()),
-        (_, 0) => Ok((evaluated, format!("{} evaluated\n", counted(rows, "row")))),
-        (known, without) => {
-            Ok((evaluated, format!("{} evaluated, {without} {NO_PEAKS}\n", counted(known, "row"))))
-        }
-    }
+    let without = peaks.iter().flatten().filter(|peaks| peaks.is_none()).count();
+    let without = if without > 0 { format!(", {without} {NO_PEAKS}") } else { String::new() };
+    ensure!(!given_peaks.is_empty(), TableError::table(path, "no row with PGA and PGV"));
+    Ok((evaluated, format!("{} evaluated{without}\n", counted(given_peaks.len(), "row"))))
 }
 
 const NO_PEAKS: &str = "without PGA or PGV";
@@ -111,11 +106,8 @@ fn with_probabilities<'a>(
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let Some(given) = given[row] else {
-            let why = Some(NO_PEAKS.to_string());
-            return (
-                TreeColumns::default(),
-                UncertaintyColumns { warnings: why, ..UncertaintyColumns::default() },
-            );
+            let warnings = Some(NO_PEAKS.to_string());
+            return (TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() });
         };
         let (rocking_object, about_model) = rocking_object(row);
         let peaks = given.clamp_to_recorded();
@@ -165,7 +157,7 @@ fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<Option<f64>
         intensities::column_of_peak(&names, wanted).map_err(|error| error.in_file(&batch.path))?;
     let values = batch.numbers(name)?.into_iter().enumerate().map(|(row, value)| {
         let is_possible = value.is_none_or(|value| value >= 0.0);
-        anyhow::ensure!(is_possible, batch.value_error(row, name, "expected 0 or more"));
+        ensure!(is_possible, batch.value_error(row, name, "expected 0 or more"));
         Ok(value.map(|value| value * unit))
     });
     values.collect()

@@ -14,7 +14,7 @@ use rockfrag_core::records::processing::{ImportedMotion, Processing, PulseSearch
 use rockfrag_core::records::rotation::Orientation;
 use rockfrag_core::records::signal::Baseline;
 use rockfrag_core::units::Unit;
-use rockfrag_core::warning::Warning;
+use rockfrag_core::warning::{Warning, Warnings};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
@@ -128,7 +128,7 @@ impl Stage for ImportMotions {
         };
         let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
         let about = about.map_err(|error| UsageError::because(error.to_string()))?;
-        context.tell(self.about.iter().map(|_| about.reading.clone()).collect());
+        context.tell(Warnings::default(), self.about.iter().map(|_| about.reading.clone()).collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = context.plan.made.inputs.get("files").into_iter().flatten();

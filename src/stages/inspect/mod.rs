@@ -4,16 +4,18 @@ mod own;
 
 use std::path::PathBuf;
 
-use arrow_schema::Field;
+use arrow_array::ArrayRef;
+use arrow_schema::{DataType, Field};
 use clap::{Args, ValueHint};
-use parquet::file::metadata::ParquetMetaData;
-use parquet::file::statistics::Statistics;
+use parquet::arrow::arrow_reader::ArrowReaderMetadata;
+use parquet::arrow::arrow_reader::statistics::StatisticsConverter;
 use rockfrag_core::units::Unit;
 use serde::{Deserialize, Serialize};
 
 use crate::number::visible;
 use crate::pipeline::options::number;
 use crate::stages::shared::reading_args::{ListArgs, ReadingArgs};
+use crate::table::columns::numbers;
 use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame::{self, Format};
 use crate::table::provenance::{Provenance, text_of};
@@ -75,10 +77,9 @@ impl Inspect {
             let shown = frame::show(&frame::read(&table.head(head))?, self.format)?;
             return Ok(if self.format == Format::Text { cut(&shown) } else { shown });
         }
-        let metadata = table.metadata().metadata();
-        let fields = table.schema().fields();
-        let columns: Vec<ColumnRow> = fields.iter().map(|field| column(field, metadata)).collect();
-        let made = Provenance::from_footer(metadata);
+        let (file, fields) = (table.metadata(), table.schema().fields());
+        let columns = fields.iter().map(|field| column(field, file)).collect::<Result<Vec<_>, _>>()?;
+        let made = Provenance::from_footer(file.metadata());
         if self.format == Format::Json {
             let (file, rows) = (self.file.display().to_string(), table.rows());
             return Ok(serde_json::to_string_pretty(&Inspected { file, rows, made, columns })? + "\n");
@@ -89,9 +90,14 @@ impl Inspect {
         }
         let mut lines = vec![format!("{}: {} rows", self.file.display(), table.rows())];
         lines.extend(made.map_or(vec!["not written by rockfrag".to_string()], origin));
-        let lines = lines.iter().map(|line| format!("{}\n", visible(line, &[])));
-        Ok(cut(&(lines.collect::<String>() + "\n" + &shown)))
+        Ok(cut(&above(&lines, &shown)))
     }
+}
+
+/// Lines about a file, above a table of its columns.
+fn above(lines: &[String], table: &str) -> String {
+    let lines = lines.iter().map(|line| format!("{}\n", visible(line, &[])));
+    lines.collect::<String>() + "\n" + table
 }
 
 /// What made a table, in lines.
@@ -114,30 +120,21 @@ fn cut(text: &str) -> String {
     lines.collect()
 }
 
-fn column(field: &Field, metadata: &ParquetMetaData) -> ColumnRow {
+fn column(field: &Field, file: &ArrowReaderMetadata) -> parquet::errors::Result<ColumnRow> {
     let (unit, meaning) = dictionary::entry(field.name()).unwrap_or_default();
-    let columns = metadata.file_metadata().schema_descr();
+    let (groups, columns) = (file.metadata().row_groups(), file.parquet_schema());
     let leaf = (0..columns.num_columns()).find(|leaf| columns.get_column_root(*leaf).name() == field.name());
-    let groups = metadata.row_groups().iter();
-    let groups: Vec<_> = groups.filter_map(|group| group.column(leaf?).statistics()).collect();
-    let ranges = groups.iter().filter_map(|statistics| range(statistics));
-    let nulls: Option<u64> = groups.iter().map(|statistics| statistics.null_count_opt()).sum();
-    ColumnRow {
+    let one = if let DataType::List(item) = field.data_type() { item } else { field };
+    let known = StatisticsConverter::from_column_index(leaf.unwrap_or_default(), one, columns)?;
+    let known = known.with_missing_null_counts_as_zero(false);
+    let ends = |ends: &ArrayRef| numbers(ends).into_iter().flatten().flatten();
+    let nulls = known.row_group_null_counts(groups)?.iter().sum::<Option<u64>>();
+    Ok(ColumnRow {
         column: field.name().clone(),
         unit: if unit == "1" { String::new() } else { unit.to_string() },
-        minimum: ranges.clone().map(|(low, _)| low).reduce(f64::min),
-        maximum: ranges.map(|(_, high)| high).reduce(f64::max),
+        minimum: ends(&known.row_group_mins(groups)?).reduce(f64::min),
+        maximum: ends(&known.row_group_maxes(groups)?).reduce(f64::max),
         nulls: nulls.filter(|_| !groups.is_empty()).map(|nulls| nulls as i64),
         meaning: meaning.to_string(),
-    }
-}
-
-fn range(statistics: &Statistics) -> Option<(f64, f64)> {
-    match statistics {
-        Statistics::Double(range) => Some((*range.min_opt()?, *range.max_opt()?)),
-        Statistics::Float(range) => Some((f64::from(*range.min_opt()?), f64::from(*range.max_opt()?))),
-        Statistics::Int32(range) => Some((f64::from(*range.min_opt()?), f64::from(*range.max_opt()?))),
-        Statistics::Int64(range) => Some((*range.min_opt()? as f64, *range.max_opt()? as f64)),
-        _ => None,
-    }
+    })
 }

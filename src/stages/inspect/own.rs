@@ -7,12 +7,12 @@ use rockfrag_core::object::Object;
 use rockfrag_core::units::G_M_S2;
 use serde::Serialize;
 
-use super::Inspect;
+use super::{Inspect, above};
 use crate::document::readings;
 use crate::inputs::records::{ReadOptions, read_records};
 use crate::inputs::{ColumnReading, Grid, Heading, InputError, Meaning, Reading, is_of_list};
 use crate::inputs::{hazard, intensities, objects, unpack};
-use crate::number::{plain, rounded, significant, visible};
+use crate::number::{plain, rounded, significant};
 use crate::source;
 use crate::table::frame::Format;
 
@@ -48,47 +48,48 @@ impl Kind {
 impl Inspect {
     pub(super) fn own(&self) -> anyhow::Result<String> {
         let Own { kind, reading } = self.read()?;
-        let table = readings::table(&reading);
         match self.format {
             Format::Json => Ok(serde_json::to_string_pretty(&Own { kind, reading })? + "\n"),
-            Format::Csv => table.csv(),
+            Format::Csv => {
+                let mut csv = csv::Writer::from_writer(Vec::new());
+                reading.columns.iter().try_for_each(|column| csv.serialize(column))?;
+                Ok(String::from_utf8(csv.into_inner()?)?)
+            }
             Format::Text => {
+                let table = readings::table(&reading).text(None);
                 let first = format!("{}: {kind}, {} rows", reading.file, reading.rows);
-                let lines = [vec![first], reading.others].concat();
-                let lines = lines.iter().map(|line| format!("{}\n", visible(line, &[])));
-                Ok(lines.collect::<String>() + "\n" + &table.text(None))
+                Ok(above(&[vec![first], reading.others].concat(), &table))
             }
         }
     }
 
     /// Reads the file as the stage does that takes it.
     fn read(&self) -> anyhow::Result<Own> {
-        let (mut reader, path, mut lines) = (self.reading.reader(), &self.file, Vec::new());
+        let (mut reader, path) = (self.reading.reader(), &self.file);
         let grid = self.reading.reader().read(path);
         let kind = grid.as_ref().map_or(Kind::Record, Kind::new);
         let read = match kind {
-            Kind::List => objects::read(path, &mut reader, &self.list.defaults())
-                .map(|(objects, _)| lines = places(&objects)),
-            Kind::Hazard => {
-                hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years).map(|_| ())
+            Kind::List => {
+                objects::read(path, &mut reader, &self.list.defaults()).map(|objects| places(&objects))
             }
-            Kind::Intensities => intensities::read(path, &mut reader).map(|_| ()),
+            Kind::Hazard => hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years)
+                .map(|_| Vec::new()),
+            Kind::Intensities => intensities::read(path, &mut reader).map(|_| Vec::new()),
             // What is neither a record nor a table is no table.
-            Kind::Record => self
-                .record()
-                .map(|record| reader.readings.push(record))
-                .map_err(|error| grid.err().unwrap_or(error).in_file(path)),
-        };
-        let reading = match (read, reader.readings.pop()) {
-            (Err(error), None) => return Err(error.into()),
-            // One of several curves gives no hazard alone.
-            (read, reading) => {
-                lines.extend(read.err().map(|error| error.to_string()));
-                reading.unwrap_or_default()
+            Kind::Record => {
+                let record = self.record().map_err(|error| grid.err().unwrap_or(error).in_file(path))?;
+                reader.readings.push(record);
+                Ok(Vec::new())
             }
         };
-        let (file, others) = (path.display().to_string(), [reading.others, lines].concat());
-        Ok(Own { kind, reading: Reading { file, others, ..reading } })
+        let (file, reading) = (path.display().to_string(), reader.readings.pop());
+        let lines = match read {
+            // One of several curves gives no hazard alone.
+            Err(error) if reading.is_some() => vec![error.to_string()],
+            read => read?,
+        };
+        let reading = reading.unwrap_or_default();
+        Ok(Own { kind, reading: Reading { file, others: [reading.others, lines].concat(), ..reading } })
     }
 
     fn record(&self) -> Result<Reading, InputError> {
@@ -96,9 +97,9 @@ impl Inspect {
         let bytes = source::read(&source::split_sheet(&self.file).0).map_err(unreadable)?;
         let column = self.column.clone();
         let options = ReadOptions { dt_s: self.dt, unit: self.unit, column, ..ReadOptions::default() };
-        let motions = unpack(bytes)?.iter().map(|member| read_records(&member.bytes, &options)).collect();
+        let motions = unpack(bytes)?.into_iter().map(|member| read_records(&member.bytes, &options));
         let mut reading = Reading::default();
-        for motion in Result::<Vec<_>, _>::and_then(motions, |motions| Ok(motions.concat()))? {
+        for motion in motions.collect::<Result<Vec<_>, InputError>>()?.concat() {
             let samples = &motion.acceleration_m_s2;
             let heading = motion.origin.component.unwrap_or("acceleration".to_string());
             let pga_g = significant(peak(samples) / G_M_S2, 3);

@@ -87,8 +87,9 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
     sections.retain(Document::has_content);
-    let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.answer_of(stage));
-    head.facts.extend(motions.map(|answer| format!("Motions: {}.", literal(answer))));
+    let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.made_by(stage));
+    let motions = motions.filter_map(|made| made.summary.lines().next());
+    head.facts.extend(motions.map(|first| format!("Motions: {}.", literal(first))));
     head.figures.extend(seen);
     head.sections.extend(sections);
     Ok((head, all))

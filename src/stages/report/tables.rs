@@ -248,11 +248,6 @@ impl Tables {
         self.made().find(|made| made.stage == stage)
     }
 
-    /// The first line that a stage has printed.
-    pub fn answer_of(&self, stage: &str) -> Option<&str> {
-        self.made_by(stage)?.summary.lines().next()
-    }
-
     /// The motions of a row group in the middle of the file of them that the responses are to.
     pub fn motions(&self) -> Result<Vec<MotionRow>, TableError> {
         let used: Vec<String> = self.of(Kind::Responses).filter_map(|item| item.input("in")).collect();

@@ -1,9 +1,8 @@
 //! What a stage that fits prints of its rows, and the warnings about its fits.
 
-use std::cmp::Ordering;
 use std::path::Path;
 
-use rockfrag_core::fragility::{Calibration, CurveFit, Measure, Parameter};
+use rockfrag_core::fragility::{Calibration, CurveFit, Group, Measure, Parameter};
 use rockfrag_core::statistics::{FitStatus, Interval};
 use rockfrag_core::warning::Warnings;
 use serde::{Deserialize, Serialize};
@@ -58,10 +57,14 @@ impl CurveLine {
     }
 }
 
-/// Log scores of held-out cases, the best first, and those without one last.
-pub fn by_score(a: Option<f64>, b: Option<f64>) -> Ordering {
-    let [a, b] = [a, b].map(|score| score.unwrap_or(f64::NEG_INFINITY));
-    b.total_cmp(&a)
+/// Fits in the order of their groups, of each that with the best log score of held-out cases first, and those
+/// without one last.
+pub fn best_first<F>(fits: &[F], group: fn(&F) -> Group, score: fn(&F) -> Option<f64>) -> Vec<&F> {
+    let mut best: Vec<&F> = fits.iter().collect();
+    let key = |fit: &F| score(fit).unwrap_or(f64::NEG_INFINITY);
+    let groups = best.chunk_by_mut(|a, b| group(a) == group(b));
+    groups.for_each(|its| its.sort_by(|a, b| key(b).total_cmp(&key(a))));
+    best
 }
 
 /// Warnings about calibrations, each with its structure and suite.

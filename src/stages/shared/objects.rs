@@ -10,7 +10,7 @@ use rockfrag_core::object::{
 };
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::warning::{UNNAMED, Warning, Warnings};
+use rockfrag_core::warning::{UNNAMED, Warning};
 use serde::{Deserialize, Serialize};
 use strum::VariantArray;
 
@@ -93,10 +93,10 @@ impl StructureArgs {
         StructureArgs { structures: self.structures.clone().or(paper), ..self.clone() }
     }
 
-    /// Finds the structures of all objects, one for each of its directions, the weaker first, and warnings
-    /// about them and their list: of a list without its rows that do not rock on the ground.
-    pub fn resolve(&self, reader: &mut Reader) -> anyhow::Result<(Vec<Vec<Structure>>, Warnings)> {
-        let (objects, mut warnings) = self.objects(&Place::default(), reader)?;
+    /// Finds the structures of all objects, one for each of its directions, the weaker first: of a list
+    /// without its rows that do not rock on the ground.
+    pub fn resolve(&self, reader: &mut Reader) -> anyhow::Result<Vec<Vec<Structure>>> {
+        let objects = self.objects(&Place::default(), reader)?;
         let mut resolved = Vec::new();
         for object in &objects {
             let name = &object.name;
@@ -104,12 +104,12 @@ impl StructureArgs {
                 Ok(directions) => {
                     let one_direction = object.shape.depth.map(|_| Warning::OneDirection);
                     for warning in structure_warnings(&directions[0]).into_iter().chain(one_direction) {
-                        warnings.add(warning, name.clone());
+                        reader.warnings.add(warning, name.clone());
                     }
                     resolved.push(directions);
                 }
                 Err(_) if self.structures.is_some() && !object.is_implausible() => {
-                    warnings.add(Warning::LeftOut, name.clone());
+                    reader.warnings.add(Warning::LeftOut, name.clone());
                 }
                 Err(problem) => return Err(problem),
             }
@@ -117,17 +117,17 @@ impl StructureArgs {
         if resolved.is_empty() {
             on_ground(&objects[0])?;
         }
-        Ok((resolved, warnings))
+        Ok(resolved)
     }
 
-    /// Finds all objects, each with what is wrong with it, and doubts about them.
-    pub fn objects(&self, place: &Place, reader: &mut Reader) -> anyhow::Result<(Vec<Object>, Warnings)> {
+    /// Finds all objects, each with what is wrong with it.
+    pub fn objects(&self, place: &Place, reader: &mut Reader) -> anyhow::Result<Vec<Object>> {
         let is_paper = self.structures.as_deref() == Some(Path::new(PAPER));
-        let (mut all, doubts) = match &self.structures {
+        let mut all = match &self.structures {
             Some(list) if !is_paper => {
                 objects::read(list, reader, &ListDefaults { place: *place, ..self.list.defaults() })?
             }
-            _ => (self.structure.clone(), Warnings::default()),
+            _ => self.structure.clone(),
         };
         if is_paper {
             let paper = paper::structures().into_iter();
@@ -143,7 +143,7 @@ impl StructureArgs {
             let problem = format!("two structures are called '{name}'; expected distinct names");
             return Err(UsageError::because(problem));
         }
-        Ok((all.into_iter().map(|object| object.at(place)).collect(), doubts))
+        Ok(all.into_iter().map(|object| object.at(place)).collect())
     }
 }
 

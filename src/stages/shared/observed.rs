@@ -56,7 +56,6 @@ fn outcomes(grid: &Grid, path: &Path, context: &Context) -> anyhow::Result<Vec<O
     let others: Vec<usize> = motions.columns.into_iter().chain([fell]).chain(earthquake).collect();
     let (objects, about_list, meanings) = objects::in_rows(grid, &others)?;
     doubts.extend(about_list);
-    context.tell(vec![grid.reading(path, meanings)]);
     let (mut earthquakes, mut rows, mut read) = (HashMap::new(), HashMap::new(), Vec::new());
     for (row, object) in objects.into_iter().enumerate() {
         let line = format!("line {}", grid.lines[row]);
@@ -88,7 +87,7 @@ fn outcomes(grid: &Grid, path: &Path, context: &Context) -> anyhow::Result<Vec<O
         }
         read.push(ObservedOutcome { structure, peaks, mw, earthquake: number, fell });
     }
-    context.warn(doubts);
+    context.tell(doubts, vec![grid.reading(path, meanings)]);
     Ok(read)
 }
 
