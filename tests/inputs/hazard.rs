@@ -164,6 +164,7 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         ("name,lon,lat,0.01,0.02,0.05\nTown,-122,37,0.1,0.05,0.01\n", "", "Heading { heading: \"0.01,"),
         ("Period (s),Sa (g)\n0,0.4\n0.1,0.4\n0.5,0.4\n1,0.4\n", "", "Heading { heading: \"Period (s)\""),
         ("lon,lat,0.1~PGA,0.1~SA(0.1)\n13,42,0.3,0.5\n", "", "0.1~PGA"),
+        (&curve("PGA (g),AFE").replace("PGA", "# PGA in m/s2\nPGA"), "", "against a comment"),
         (&exported(""), "", "imt"),
         (&exported(", imt='SA(0.3)'"), "", "SA(0.3 s)"),
         (&curve("intensity,AFE"), "", "Heading { heading: \"intensity\""),

@@ -160,10 +160,10 @@ impl Found {
         }
         openquake::name_fields(&mut grid);
         let mut told = Told::new(&grid)?;
-        told.expect_same(&grid.headings)?;
         if is_exported {
             grid = openquake::curve(&grid, &mut told)?;
         }
+        told.expect_same(&grid.headings)?;
         let mut columns: Vec<Phrase> =
             grid.headings.iter().map(|heading| Phrase::of(heading, &told)).collect();
         let occurrence = columns.iter().position(|column| column.frequency == Some(Frequency::Occurrence));
