@@ -13,6 +13,7 @@
 //! reading      how a file was read
 //! hazard       the hazard of a site
 //! roles        what the columns of a list say
+//! remarks      what texts of a list say of units, anchors and floors
 //! objects      lists of objects
 //! intensities  tables of motions by their peaks
 //! about        tables about records
@@ -36,6 +37,7 @@ pub mod objects;
 mod reader;
 mod reading;
 pub mod records;
+mod remarks;
 mod roles;
 mod separated;
 mod unpack;

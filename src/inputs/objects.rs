@@ -9,10 +9,10 @@ use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::floors::{self, Building, Storey};
-use super::numbers::is_missing;
-use super::roles::{Role, holds, meaning};
-use super::words::{is_one_of, joined, means, normal, synonyms};
-use super::{Grid, Heading, InputError, Meaning, Reader, Result};
+use super::remarks::{held_by, is_on_anchors, is_on_floors, unit_of_remark};
+use super::roles::{Role, meaning};
+use super::words::{is_one_of, joined, means};
+use super::{Grid, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
 /// Without one of these, in a cell that is not empty, there is no object.
@@ -399,55 +399,5 @@ impl List<'_> {
         anchors
             .find_map(|(heading, cell)| held_by(heading, cell))
             .or_else(|| cells(Role::Kept).find_map(open))
-    }
-}
-
-fn is_on_anchors(text: &str) -> bool {
-    joined(text).split('-').any(holds)
-}
-
-/// Whether a text says on which floor, by a number with a word for floors, or by a word for the upper ones.
-fn is_on_floors(text: &str) -> bool {
-    let words = joined(text);
-    let has = |meaning: &str| words.split('-').any(|word| is_one_of(word, meaning) && word.len() > 2);
-    let is_one = matches!(Storey::parse(text), Some(Storey::Number(_) | Storey::Above(_)));
-    let has_number =
-        text.contains(|sign: char| sign.is_ascii_digit()) || words.split('-').any(floors::is_ordinal);
-    has("upper") || has("of-floors") && has_number || is_one && text.contains(char::is_alphabetic)
-}
-
-/// The unit of lengths that a remark names, other than behind a number: all in mm.
-fn unit_of_remark(note: &str) -> Option<Unit> {
-    let note = normal(note).to_lowercase();
-    let words: Vec<&str> =
-        note.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
-    let behind = [""].into_iter().chain(words.iter().copied());
-    let units = behind.zip(&words).filter(|(before, word)| {
-        let is_number = before.ends_with(|sign: char| sign.is_ascii_digit());
-        !is_number
-            && (word.len() > 2 || ["cm", "mm", "ft"].contains(word) || *before == "in" && **word == "m")
-    });
-    let units =
-        units.filter_map(|(_, word)| Unit::parse(word).filter(|unit| unit.quantity == Quantity::Length));
-    let units: Vec<Unit> = units.collect();
-    let in_brackets = Heading::new(&note).unit.filter(|unit| unit.quantity == Quantity::Length);
-    // Several say what may stand in headings.
-    units.first().copied().or(in_brackets).filter(|first| units.iter().all(|unit| unit == first))
-}
-
-/// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.
-fn held_by(heading: &str, cell: &str) -> Option<ObjectError> {
-    let (heading, text) = (heading.to_lowercase(), joined(cell));
-    let has = |text: &str, meaning: &str| synonyms(meaning).any(|part| text.contains(part));
-    let not = ["not-", "un", "no-", "non-", "nicht-"].iter().find_map(|not| text.strip_prefix(not));
-    let is_loose = not.is_some_and(|word| has(word, "holds") && !word.trim_matches('-').contains('-'));
-    if cell.is_empty() || is_missing(cell) || means(cell, "free") || is_loose {
-        None
-    } else if text.starts_with("no-") || !(means(cell, "yes") || has(&text, "holds") || has(&text, "rolls")) {
-        Some(ObjectError::Implausible(format!("{heading}: '{cell}'; expected yes or no")))
-    } else if has(&heading, "rolls") || has(&text, "rolls") {
-        Some(ObjectError::NotRocking("on castors: it rolls, and does not rock".to_string()))
-    } else {
-        Some(ObjectError::NotRocking(format!("{heading}: {}; it is not free to rock", cell.to_lowercase())))
     }
 }

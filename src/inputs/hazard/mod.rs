@@ -45,7 +45,9 @@ pub fn read(paths: &[PathBuf], reader: &mut Reader, effective_years: Option<f64>
 pub fn is_of_hazard(heading: &Heading) -> bool {
     let is_exported = ["gmv_", "poe-"].iter().any(|start| heading.text.starts_with(start));
     let told = Told { years: Some(1.0), ..Told::default() };
-    is_exported || Phrase::of(heading, &told).frequency.is_some()
+    // t and time (s) are of a record.
+    let is_time = heading.name.len() < 2 || heading.unit.is_some_and(|unit| unit.name == "s");
+    is_exported || !is_time && Phrase::of(heading, &told).frequency.is_some()
 }
 
 struct Curve {
