@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::time::Instant;
 
 use rockfrag_core::motion::{Design, MeasurePlan, MotionModel, Scenario, ScenarioGrid, Suite, Synthesizer};
-use rockfrag_core::rocking::{Problem, Record, Structure, reference, simulate_all};
+use rockfrag_core::rocking::{Problem, Record, Structure, simulate_all, trace};
 
 /// Combined motions of some samples of each of the 35 cells.
 fn scenarios(samples: usize) -> Vec<Scenario> {
@@ -50,7 +50,7 @@ fn main() {
     let solver = median_us(problems.len(), || drop(black_box(simulate_all(&problems))));
     let scalar = median_us(10, || {
         for problem in &problems[..10] {
-            black_box(reference::solve(problem.structure, &problem.record, 0.0, |_| {}));
+            black_box(trace(problem.structure, &problem.record, 0.0));
         }
     });
     println!(

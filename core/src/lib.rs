@@ -55,8 +55,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`rocking::trace`] gives the rotation over time. The folder `examples` has two programs: the rate and
-//! probability of a cabinet, and the way from earthquake scenarios to a fragility curve.
+//! [`rocking::trace`] gives the rotation over time. The folder `examples` has the way from earthquake
+//! scenarios to a fragility curve.
 //!
 //! # What is where
 //!

@@ -37,28 +37,10 @@ impl serde::Serialize for Unit {
 
 use Quantity::{Acceleration, Angle, AngularFrequency, Counts, Length, Mass, Time, Velocity};
 
-const CENTIMETRES: &[&str] = &[
-    "centimetre",
-    "centimetres",
-    "centimeter",
-    "centimeters",
-    "zentimeter",
-    "zentimetern",
-    "centimetri",
-    "centímetros",
-    "centimètres",
-    "センチ",
-];
-const MILLIMETRES: &[&str] = &[
-    "millimetre",
-    "millimetres",
-    "millimeter",
-    "millimeters",
-    "millimetern",
-    "millimetri",
-    "milímetros",
-    "millimètres",
-    "ミリ",
+/// Beginnings of the words for a unit in some languages, and its name: `Zentimetern`, `millimètres`.
+const BEGINNINGS: [(&str, &[&str]); 2] = [
+    ("cm", &["centimet", "centimèt", "centímet", "zentimet", "センチ"]),
+    ("mm", &["millimet", "millimèt", "milímet", "ミリ"]),
 ];
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
@@ -83,8 +65,8 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
     ("in/s", Velocity, 0.0254, &[]),
     ("ft/s", Velocity, 0.3048, &[]),
     ("m", Length, 1.0, &["metre", "metres", "meter", "meters"]),
-    ("cm", Length, 0.01, CENTIMETRES),
-    ("mm", Length, 0.001, MILLIMETRES),
+    ("cm", Length, 0.01, &[]),
+    ("mm", Length, 0.001, &[]),
     ("km", Length, 1000.0, &[]),
     ("in", Length, 0.0254, &["inch", "inches", "zoll", "\"", "''"]),
     ("ft", Length, 0.3048, &["foot", "feet", "'"]),
@@ -117,8 +99,11 @@ impl Unit {
         let is_left_out =
             |c: &char| matches!(c, '-' | '^' | '*') || *c == '\'' && text.contains(char::is_alphabetic);
         let plain: String = text.chars().filter(|c| !is_left_out(c)).map(per).collect();
+        let begins = |(_, words): &&(_, &[&str])| words.iter().any(|word| plain.starts_with(word));
+        let known = BEGINNINGS.iter().find(begins).filter(|_| !plain.contains('/'));
+        let plain = known.map_or(&*plain, |(name, _)| name);
         let (name, quantity, si, _) =
-            UNITS.iter().find(|(name, .., others)| *name == plain || others.contains(&plain.as_str()))?;
+            UNITS.iter().find(|(name, .., others)| *name == plain || others.contains(&plain))?;
         Some(Unit { name, quantity: *quantity, si: *si })
     }
 

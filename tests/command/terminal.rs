@@ -241,9 +241,3 @@ fn names_that_xml_cannot_hold_or_are_colours_are_drawn_and_kept() {
     }
     succeed(folder.path(), "report --in o.parquet");
 }
-
-#[test]
-fn what_rounds_to_zero_has_no_sign() {
-    let fixed = [-0.001, -0.0, -0.006].map(|value| rockfrag::number::fixed(value, 2));
-    assert_eq!(fixed, ["0.00", "0.00", "-0.01"]);
-}

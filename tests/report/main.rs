@@ -52,10 +52,8 @@ fn values_stand_where_the_axes_say() {
         ..Default::default()
     };
     let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-    assert!(
-        svg(&figure).contains("M264.1 66h0"),
-        "30 and half of 510.2 - 30 - 12 points, 16 and half of 100"
-    );
+    // 30 and half of 510.2 - 30 - 12 points, 16 and half of 100.
+    assert!(svg(&figure).contains("M264.1 66h0"));
 }
 
 #[test]
@@ -93,12 +91,7 @@ fn the_page_of_claims_has_their_numbers() {
         let cells: Vec<String> =
             (0..5).map(|digits| format!("{:.digits$}±{half:.digits$}", row.mean)).collect();
         assert!(cells.iter().any(|cell| page.contains(cell)), "{row:?}");
-        assert!(
-            page.contains(&format!("{} | {} |", row.claim, row.verdict)),
-            "{}: {}",
-            row.claim,
-            row.verdict
-        );
+        assert!(page.contains(&format!("{} | {} |", row.claim, row.verdict)), "{row:?}");
     }
 }
 
@@ -140,6 +133,8 @@ fn numbers_are_as_short_as_a_reader_needs() {
     let of = Interval { value: Some(0.0069), low: Some(0.005), high: Some(0.00984) };
     assert_eq!(number::PERCENT.both(of, "95 % limits "), "0.69 % (95 % limits 0.50 to 0.98 %)");
     assert_eq!([-1234.5, -123.0].map(|x| number::fixed(x, 1)), ["-1,234.5", "-123.0"]);
+    // What rounds to zero has no sign.
+    assert_eq!([-0.001, -0.0, -0.006].map(|x| number::fixed(x, 2)), ["0.00", "0.00", "-0.01"]);
 }
 
 const RUN: &str = "\
@@ -164,12 +159,9 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     std::fs::write(at("pipeline.yaml"), RUN).unwrap();
     assert!(call("run").0);
     let first = std::fs::read(at("out/report.html")).unwrap();
-    let again = call("run");
-    assert!(
-        again.0
-            && again.1.contains("fit-pro              up to date")
-            && !again.1.contains("report               up")
-    );
+    let (is_done, told) = call("run");
+    let is_kept = |stage: &str| told.contains(&format!("{stage:<20} up to date"));
+    assert!(is_done && is_kept("fit-pro") && !is_kept("report"), "{told}");
     assert!(std::fs::read(at("out/report.html")).unwrap() == first, "the same page has the same bytes");
     let endings = |ending: &str| {
         let files = std::fs::read_dir(at("out/report")).unwrap().map(|file| file.unwrap().path());
@@ -178,18 +170,10 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let names = ["motion", "similarity", "demand-a", "regressions-a-csgm", "quality", "planes", "exceedance"];
     assert!(names.iter().all(|name| at(&format!("out/report/{name}.svg")).exists()), "{:?}", endings("svg"));
     assert!(endings("svg").len() == endings("png").len() && endings("svg").len() == endings("csv").len());
-    for svg in endings("svg") {
-        let text = std::fs::read_to_string(&svg).unwrap();
-        usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
-        let rows = csv::Reader::from_path(svg.with_extension("csv")).unwrap().into_records();
-        let forms: Vec<String> = rows.map(|row| row.unwrap()[16].to_string()).collect();
-        let dots = forms.iter().filter(|form| *form == "dot").count();
-        let is_of_dots = svg.ends_with("planes.svg");
-        assert!(
-            !forms.is_empty() && (!is_of_dots || text.matches("h0").count() == dots + 2),
-            "each row, two in the legend"
-        );
-    }
+    let rows = csv::Reader::from_path(at("out/report/planes.csv")).unwrap().into_records();
+    let dots = rows.filter(|row| row.as_ref().unwrap()[16] == *"dot").count();
+    let planes = std::fs::read_to_string(at("out/report/planes.svg")).unwrap();
+    assert!(dots > 0 && planes.matches("h0").count() == dots + 2, "each row, two in the legend");
     assert!(call("report --in out --title Again --force").0);
     assert!(std::fs::read_to_string(at("out/report.html")).unwrap().contains("<h1>Again</h1>"));
     // Responses of another structure under the same names: their fits are left out, and the page says so.
@@ -199,12 +183,6 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let page = std::fs::read_to_string(at("out/report.html")).unwrap();
     assert!(page.contains("pro.parquet is not shown") && page.contains("pex.parquet is not shown"));
     assert!(!call("report --in empty").0);
-    // A table is known by what it holds.
-    std::fs::create_dir(at("renamed")).unwrap();
-    std::fs::copy(at("out/responses.parquet"), at("renamed/x.parquet")).unwrap();
-    assert!(call("report --in renamed/x.parquet --out renamed/page.html").0);
-    let page = std::fs::read_to_string(at("renamed/page.html")).unwrap();
-    assert!(page.contains("<h1>What rocks and what overturns</h1>"));
 }
 
 #[test]
@@ -233,10 +211,8 @@ fn a_column_of_one_value_is_said_once() {
     all.rows[2].object.count = Some(3.0);
     let page = Document::of_answers(&all);
     let heads: Vec<String> = page.tables.into_iter().flat_map(|table| table.heads).collect();
-    assert_eq!(
-        ["friction needed", "number", "place"].map(|head| heads.contains(&head.into())),
-        [false, true, true]
-    );
+    let has = |head: &str| heads.iter().any(|of| of == head);
+    assert!(!has("friction needed") && has("number") && has("place"), "{heads:?}");
     assert!(page.facts[0].contains("friction needed 0.25") && !page.facts[0].contains("number"));
 }
 
@@ -279,34 +255,18 @@ fn names_of_responses_are_no_markup() {
 }
 
 #[test]
-fn answers_as_workbook_and_picture_are_read_back_and_replaced() {
+fn texts_of_a_workbook_are_no_formulas_and_numbers_are_numbers() {
     let folder = tempfile::tempdir().unwrap();
     let hazard = concat!(env!("CARGO_MANIFEST_DIR"), "/data/hazard.csv");
     std::fs::write(folder.path().join("list.csv"), "name,width,height\n=1+1,0.5,1.9\n@b,0.4,1.9\n").unwrap();
-    let evaluate = |options: &str| {
-        let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
-        command.current_dir(folder.path()).args(["evaluate", "--quiet", "--hazard", hazard]);
-        command.args(options.split(' ')).output().unwrap().status.success()
-    };
-    for out in ["a.xlsx", "a.png", "a.svg", "a.html"] {
-        let path = folder.path().join(out);
-        assert!(evaluate(&format!("--structures list.csv --out {out}")), "{out}");
-        let first = std::fs::read(&path).unwrap();
-        let force = if out == "a.xlsx" { " --force" } else { "" };
-        assert!(evaluate(&format!("--structures list.csv --years 100 --out {out}{force}")), "{out}");
-        assert!(first != std::fs::read(&path).unwrap(), "{out} is replaced");
-        let foreign = if out == "a.png" { Pixmap::new(4, 4).unwrap().encode_png().unwrap() } else { vec![1] };
-        if out == "a.xlsx" {
-            let mut book: calamine::Xlsx<_> = calamine::open_workbook(&path).unwrap();
-            let sheet = calamine::Reader::worksheet_range_at(&mut book, 0).unwrap().unwrap();
-            let rows: Vec<_> = sheet.rows().collect();
-            let column = |name: &str| rows[0].iter().position(|head| *head == *name).unwrap();
-            assert!(rows.len() == 3 && rows[1..].iter().any(|row| row[column("structure")] == *"=1+1"));
-            let rates = rows[1..].iter().map(|row| &row[column("overturning_per_year")]);
-            assert!(rates.into_iter().all(|rate| matches!(rate, calamine::Data::Float(rate) if *rate > 0.0)));
-        }
-        std::fs::write(&path, &foreign).unwrap();
-        assert!(!evaluate(&format!("--structures list.csv --out {out}")), "{out} is another's");
-        assert!(std::fs::read(&path).unwrap() == foreign);
-    }
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
+    command.current_dir(folder.path()).args(["evaluate", "--quiet", "--hazard", hazard]);
+    assert!(command.args(["--structures", "list.csv", "--out", "a.xlsx"]).status().unwrap().success());
+    let mut book: calamine::Xlsx<_> = calamine::open_workbook(folder.path().join("a.xlsx")).unwrap();
+    let sheet = calamine::Reader::worksheet_range_at(&mut book, 0).unwrap().unwrap();
+    let rows: Vec<_> = sheet.rows().collect();
+    let column = |name: &str| rows[0].iter().position(|head| *head == *name).unwrap();
+    assert!(rows.len() == 3 && rows[1..].iter().any(|row| row[column("structure")] == *"=1+1"));
+    let mut rates = rows[1..].iter().map(|row| &row[column("overturning_per_year")]);
+    assert!(rates.all(|rate| matches!(rate, calamine::Data::Float(rate) if *rate > 0.0)));
 }

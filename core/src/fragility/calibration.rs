@@ -190,14 +190,9 @@ impl Calibration {
 
     pub(super) fn branch(&self, structure: &Structure, mw: Option<f64>) -> Branch<'_> {
         let surface = StructureSurface::new(self.kind, structure, self.limit_state, mw);
-        let errors =
-            self.errors().into_iter().map(|at_quantiles| at_quantiles.map(Parameters::new)).collect();
-        Branch {
-            calibration: self,
-            surface,
-            parameters: Parameters::new([self.c, self.ln_s, self.m]),
-            errors,
-        }
+        let parameters = Parameters::new([self.c, self.ln_s, self.m]);
+        let errors = self.errors().into_iter().map(|errors| errors.map(Parameters::new)).collect();
+        Branch { calibration: self, surface, parameters, errors }
     }
 
     /// The probability given rocking, with limits; none where a measure is missing.

@@ -23,11 +23,10 @@ pub fn hybrid_measure(im_x: f64, im_y: f64, lambda: f64) -> f64 {
 }
 
 /// Fits the curve of one measure, or of the hybrid of two, by maximum likelihood, to `Event::Overturning` or
-/// `Event::Rocking`. The likelihood of
-/// overturning is the product over the cases that rocked of P_ro where the structure overturned and 1 - P_ro
-/// where it did not (Eq. 19). Its logarithm ([`log_likelihood`], Eq. 21) is concave in b0, b1 and b2 of (ln
-/// IM - mu) / beta = b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq. 22) follow [`lambda`], [`mu`] and
-/// [`beta`].
+/// `Event::Rocking`. The likelihood of overturning is the product over the cases that rocked of P_ro where
+/// the structure overturned and 1 - P_ro where it did not (Eq. 19). Its logarithm ([`log_likelihood`], Eq.
+/// 21) is concave in b0, b1 and b2 of (ln IM - mu) / beta = b0 + b1 ln IMx + b2 ln IMy; from its maximum (Eq.
+/// 22) follow [`lambda`], [`mu`] and [`beta`].
 ///
 /// # Panics
 /// Of the other events, which need a limit state: a curve has none.

@@ -220,7 +220,7 @@ pub fn spectral_acceleration(acceleration: &[f64], dt_s: f64, period_s: f64, dam
 
 /// Computes the Housner intensity, m: the integral of the pseudo-velocity spectrum at 5 % damping from 0.1 to
 /// 2.5 s, by trapezoids.
-pub fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
+fn housner_intensity(acceleration: &[f64], dt_s: f64) -> f64 {
     let (first, last, points) = HOUSNER_PERIODS;
     let step = (last - first) / (points - 1) as f64;
     let parts = (0..points).map(|k| {

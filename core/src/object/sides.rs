@@ -45,15 +45,12 @@ impl Object {
         sides.sort_by(|a, b| a.friction().total_cmp(&b.friction()));
         let (least, friction) = (sides[0].friction(), self.place.friction.unwrap_or(f64::INFINITY));
         sides.retain(|side| side.friction() <= friction);
-        match sides.is_empty() {
-            true => Err(ObjectError::NotRocking(format!(
-                "slides first: it rocks from a friction of {least:.2} on"
-            ))),
-            false => {
-                self.place.wall.into_iter().for_each(|wall| put_before(wall, &mut sides));
-                Ok(sides)
-            }
+        if sides.is_empty() {
+            let problem = format!("slides first: it rocks from a friction of {least:.2} on");
+            return Err(ObjectError::NotRocking(problem));
         }
+        self.place.wall.into_iter().for_each(|wall| put_before(wall, &mut sides));
+        Ok(sides)
     }
 
     pub fn is_implausible(&self) -> bool {

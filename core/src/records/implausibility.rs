@@ -73,14 +73,8 @@ pub enum Implausibility {
 impl Implausibility {
     /// Returns whether no record was ever like this; a few are weak, strong, cut off or clipped.
     pub fn is_impossible(&self) -> bool {
-        !matches!(
-            self,
-            Implausibility::WeakPga { .. }
-                | Implausibility::CutOff { .. }
-                | Implausibility::Clipped { .. }
-                | Implausibility::RarePga { .. }
-                | Implausibility::RarePgv { .. }
-        )
+        use Implausibility::{Clipped, CutOff, RarePga, RarePgv, WeakPga};
+        !matches!(self, WeakPga { .. } | CutOff { .. } | Clipped { .. } | RarePga { .. } | RarePgv { .. })
     }
 }
 

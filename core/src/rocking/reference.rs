@@ -86,23 +86,19 @@ pub struct TracePoint {
     pub solver_event: Option<SolverEvent>,
 }
 
-/// Simulates a structure, initially at rest, through a record and the free rocking after it. Calls `observe`
-/// at each sample and event of the record and of the `tail_s` seconds of still ground after it, in steps of
-/// the record.
-pub fn solve(
-    structure: &Structure,
-    record: &Record,
-    tail_s: f64,
-    mut observe: impl FnMut(TracePoint),
-) -> Response {
+/// Simulates a structure, initially at rest, through a record and the free rocking after it. The points are
+/// each sample and event of the record and of the `tail_s` seconds of still ground after it, in steps of the
+/// record, up to where theta reaches pi/2.
+pub fn trace(structure: &Structure, record: &Record, tail_s: f64) -> (Response, Vec<TracePoint>) {
     let (samples, dt_s, alpha) = (record.acceleration_m_s2(), record.dt_s(), structure.alpha_rad);
     let still = std::iter::repeat_n([0.0; 2], (tail_s / dt_s).ceil() as usize);
     let steps: Vec<[f64; 2]> = samples.array_windows().copied().chain(still).collect();
     let longest_s = LONGEST_STEP / (structure.p_rad_s * (1.0 + record.peak_m_s2() * G_PER_M_S2).sqrt());
     let (mut state, mut peak, mut impacts, mut uplifted) = (None, 0.0_f64, 0, false);
+    let mut points = Vec::new();
     let mut note = |time_s: f64, state: Option<Rocking>, solver_event| {
         let Rocking { theta, velocity, .. } = state.unwrap_or_default();
-        observe(TracePoint { time_s, theta_rad: theta, theta_dot_rad_s: velocity, solver_event });
+        points.push(TracePoint { time_s, theta_rad: theta, theta_dot_rad_s: velocity, solver_event });
     };
     for (k, [from, to]) in steps.iter().enumerate() {
         let ground = |t: f64| (from + (to - from) * t / dt_s) * G_PER_M_S2;
@@ -133,7 +129,7 @@ pub fn solve(
             (t, state, peak) = (t + h, Some(next), peak.max(now.side * top.theta));
             if overturns(next) {
                 note(sample_s + t, state, Some(SolverEvent::Overturn));
-                return Response::after_rocking(None, peak, alpha, impacts);
+                return (Response::after_rocking(None, peak, alpha, impacts), points);
             }
             if strikes(next) {
                 let after = impact(structure, next);
@@ -154,12 +150,6 @@ pub fn solve(
         alpha,
         structure.eta,
     );
-    if uplifted { Response::after_rocking(later, peak, alpha, impacts) } else { Response::NO_ROCKING }
-}
-
-/// Simulates as [`solve`] and returns the rotation at each sample and event, up to where theta reaches pi/2.
-pub fn trace(structure: &Structure, record: &Record, tail_s: f64) -> (Response, Vec<TracePoint>) {
-    let mut points = Vec::new();
-    let response = solve(structure, record, tail_s, |point| points.push(point));
-    (response, points)
+    let rocked = Response::after_rocking(later, peak, alpha, impacts);
+    (if uplifted { rocked } else { Response::NO_ROCKING }, points)
 }

@@ -36,18 +36,7 @@ pub struct StructureError {
     pub structure: String,
     pub parameter: &'static str,
     pub value: f64,
-    pub expected: String,
-}
-
-impl StructureError {
-    pub fn new(
-        structure: &str,
-        parameter: &'static str,
-        value: f64,
-        expected: impl Into<String>,
-    ) -> StructureError {
-        StructureError { structure: structure.to_string(), parameter, value, expected: expected.into() }
-    }
+    pub expected: &'static str,
 }
 
 impl Structure {
@@ -61,7 +50,7 @@ impl Structure {
         ];
         for (parameter, value, range, expected) in accepted {
             if !range.contains(&value) {
-                return Err(StructureError::new(name, parameter, value, expected));
+                return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
         }
         Ok(Structure { name: name.to_string(), p_rad_s, alpha_rad, eta, rebound: None })
@@ -79,7 +68,8 @@ impl Structure {
     ) -> Result<Structure, StructureError> {
         for (parameter, value) in [("width", width_m), ("height", height_m)] {
             if !(value > 0.0 && value.is_finite()) {
-                return Err(StructureError::new(name, parameter, value, "a length above 0 m"));
+                let expected = "a length above 0 m";
+                return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
         }
         let alpha_rad = (width_m / height_m).atan();
@@ -100,8 +90,9 @@ impl Structure {
         eta: Option<f64>,
     ) -> Result<Structure, StructureError> {
         if !(beam_mass_ratio >= 0.0 && beam_mass_ratio.is_finite()) {
-            let expected = "a mass ratio of 0 or more";
-            return Err(StructureError::new(name, "beam-mass-ratio", beam_mass_ratio, expected));
+            let (parameter, expected) = ("beam-mass-ratio", "a mass ratio of 0 or more");
+            let structure = name.to_string();
+            return Err(StructureError { structure, parameter, value: beam_mass_ratio, expected });
         }
         let column = Structure::rectangular_block(name, width_m, height_m, Some(1.0))?;
         let eta = eta.unwrap_or_else(|| frame_eta(column.alpha_rad, beam_mass_ratio));

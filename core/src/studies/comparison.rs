@@ -55,9 +55,9 @@ pub struct Distance {
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let (numbers, seeds) = (published(), seed_values());
     let compared = numbers.iter().map(|number| {
-        let ours = structure_of(number).and_then(|structure| {
-            GroupFits { suite: &number.suite, structure, demand, curves }.value(number)
-        });
+        let its = structures().into_iter().find(|structure| structure.name == number.structure);
+        let fits = its.map(|structure| GroupFits { suite: &number.suite, structure, demand, curves });
+        let ours = fits.and_then(|fits| fits.value(number));
         let tested = numbers.iter().filter(|other| number.is_tested_with(other)).collect::<Vec<_>>();
         let (alone, together) = (of_seeds(&[number], &seeds), of_seeds(&tested, &seeds));
         let printed: Vec<f64> = tested.iter().map(|other| other.published).collect();
@@ -92,11 +92,6 @@ pub fn verdict(compared: &[Comparison]) -> String {
          {all_csgm} combined) and {others} of {all_others} numbers agree with twenty seeds of \
          rockfrag (p > {LEVEL}; reading chosen among {READINGS})."
     )
-}
-
-/// The structure of a published number.
-fn structure_of(number: &Published) -> Option<Structure> {
-    structures().into_iter().find(|structure| structure.name == number.structure)
 }
 
 /// Our values of k numbers, of each seed that has all.

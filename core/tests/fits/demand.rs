@@ -124,11 +124,8 @@ fn fits_that_cannot_be_made_have_a_status_and_no_numbers() {
     let demand = |k: u32| (0.3 * f64::from(k % 3) - 0.1 * f64::from(k)).exp();
     let falling = cases((0..90).map(|k| (Outcome::SafeRocking(demand(k)), 1.0 + f64::from(k), 1.0, k)));
     assert_eq!(fit_law(&falling, Predictors::one(Measure::Im4)).status, FitStatus::WrongSign);
-    assert_eq!(
-        fit_law(&falling, Predictors::one(Measure::Im1)).status,
-        FitStatus::Degenerate,
-        "no case has it"
-    );
+    // No case has it.
+    assert_eq!(fit_law(&falling, Predictors::one(Measure::Im1)).status, FitStatus::Degenerate);
     let few = line(30, |im4| im4);
     assert!(scan_transition(&few).is_empty());
     let fits = fit_demand(&few, None, &[0.1], &[], false);
@@ -159,9 +156,6 @@ fn the_variance_of_p_ex_is_that_of_the_textbook() {
     close(p.value, normal::cdf(z), 1e-13);
     close(p.low, normal::cdf(z - half_width), 1e-9);
     close(p.high, normal::cdf(z + half_width), 1e-9);
-    assert_eq!(
-        fit_law(&cases(rows), Predictors::two(PLANE)).p_exceeding(&measures, limit, 0.95),
-        None,
-        "IM3 is missing"
-    );
+    // IM3 is missing.
+    assert_eq!(fit_law(&cases(rows), Predictors::two(PLANE)).p_exceeding(&measures, limit, 0.95), None);
 }

@@ -10,9 +10,7 @@ use rockfrag_core::statistics::clusters::clustered_error_of_mean;
 use rockfrag_core::statistics::distributions::{chi_squared_quantile, f_upper_tail, t_quantile};
 use rockfrag_core::statistics::normal::{cdf, ln_cdf, ln_cdf_and_slope, quantile};
 use rockfrag_core::statistics::scores::{auc, brier_score, largest_difference, log_score};
-use rockfrag_core::statistics::{
-    FitStatus, clustered_least_squares, clustered_probit, held_out, least_squares, probit,
-};
+use rockfrag_core::statistics::{FitStatus, clustered_probit, held_out, least_squares, probit};
 
 use crate::common::{Row, answers, close, data, random, read};
 
@@ -28,19 +26,6 @@ fn probit_equals_statsmodels_where_classes_barely_overlap() {
         close(probit.fit.covariance[(k, k)].sqrt(), expected[&format!("se{k}")], 1e-8);
     }
     close(probit.log_likelihood, expected["llf"], 1e-8);
-}
-
-#[test]
-fn errors_of_lone_cases_equal_statsmodels() {
-    let (data, expected) = (data(), answers("uncertainty_answers.csv"));
-    let alone: Vec<u32> = (0..data.x.len() as u32).collect();
-    for name in ["x", "xy"] {
-        let x = data.predictors(name);
-        let curve = clustered_probit(&x, &data.event, &alone).unwrap();
-        let plane = clustered_least_squares(&x, &data.demand, &alone).unwrap().fit;
-        assert_eq!((curve.fit.clusters, curve.status), (400, FitStatus::Ok));
-        close(plane.clustered.unwrap()[(1, 1)].sqrt(), expected[&format!("ols_{name}_hc1_1")], 1e-9);
-    }
 }
 
 #[test]
@@ -93,7 +78,6 @@ fn normal_probabilities_equal_scipys() {
     close(cdf(0.5), 0.691_462_461_274_013_1, 1e-15);
     close(cdf(-10.0), 7.619_853_024_160_525e-24, 1e-13);
     close(cdf(2.0), 0.977_249_868_051_820_8, 1e-15);
-    close(ln_cdf(-5.0), -15.064_998_393_988_727, 1e-14);
 }
 
 #[test]

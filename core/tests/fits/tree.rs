@@ -41,9 +41,8 @@ fn the_paper_answers_by_the_plane_of_the_side_and_the_hybrid_curve() {
         close(given.p_failure.unwrap().value, p_ro + (1.0 - p_ro) * p_ex, 1e-12);
     }
     let uplift = equipment().uplift_acceleration_m_s2();
-    let at = |pga: f64, pgv: f64| {
-        let measures =
-            IntensityMeasures::new(&equipment(), Peaks { pga_m_s2: pga, pgv_m_s: pgv }, None, None);
+    let at = |pga_m_s2: f64, pgv_m_s: f64| {
+        let measures = IntensityMeasures::new(&equipment(), Peaks { pga_m_s2, pgv_m_s }, None, None);
         paper_probabilities(&planes, &curve, &measures, 0.1, 0.95).limit_states()
     };
     assert_eq!(at(uplift * (1.0 - 1e-12), 1.0), LimitStates::all(Some(Interval::exact(0.0))));

@@ -82,20 +82,15 @@ fn scores(safe: &Cases, overturning: &Cases, measures: &[&str]) -> [Vec<[Option<
     let asked: Vec<Predictors> = measures.iter().map(|one| one.parse().unwrap()).collect();
     let demand = fit_demand(safe, Some(1.3), &[0.1], &asked, false);
     let curves = fit_curves(overturning, Event::Overturning, &asked, false);
-    let of_demand = |one: &Predictors| demand.iter().skip(2).find(|fit| fit.predictors() == *one);
-    let of_curves = |one: &Predictors| curves.iter().find(|fit| fit.predictors() == *one);
-    [
-        asked
-            .iter()
-            .map(|one| of_demand(one).unwrap())
-            .map(|fit| [fit.held_out_log_score, fit.calibration_slope])
-            .collect(),
-        asked
-            .iter()
-            .map(|one| of_curves(one).unwrap())
-            .map(|fit| [fit.held_out_log_score, fit.calibration_slope])
-            .collect(),
-    ]
+    let of_demand = |one: &Predictors| {
+        let fit = demand.iter().skip(2).find(|fit| fit.predictors() == *one).unwrap();
+        [fit.held_out_log_score, fit.calibration_slope]
+    };
+    let of_curves = |one: &Predictors| {
+        let fit = curves.iter().find(|fit| fit.predictors() == *one).unwrap();
+        [fit.held_out_log_score, fit.calibration_slope]
+    };
+    [asked.iter().map(of_demand).collect(), asked.iter().map(of_curves).collect()]
 }
 
 #[test]

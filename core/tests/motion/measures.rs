@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use rockfrag_core::motion::measures::{housner_intensity, spectral_acceleration, velocity};
+use rockfrag_core::motion::measures::{spectral_acceleration, velocity};
 use rockfrag_core::motion::{Dimension, IntensityMeasures, MeasurePlan, Peaks};
 use rockfrag_core::rocking::Structure;
 
@@ -13,7 +13,7 @@ fn sine(amplitude: f64, f: f64, duration: f64, dt: f64) -> Vec<f64> {
 }
 
 #[test]
-fn a_sine_and_a_constant_have_their_closed_forms() {
+fn a_sine_has_its_closed_forms() {
     let (a, f, duration, dt) = (2.0, 1.0, 40.0, 0.001);
     let m = MeasurePlan::default().measure(&sine(a, f, duration, dt), dt);
     let coarse = velocity(&sine(a, f, duration, 0.05), 0.05);
@@ -26,10 +26,6 @@ fn a_sine_and_a_constant_have_their_closed_forms() {
     close(m.tm_s.unwrap(), 1.0 / f, 0.02);
     close(m.d5_95_s, 0.9 * duration, 0.02);
     close(m.d5_75_s, 0.7 * duration, 0.02);
-    let constant = MeasurePlan::default().measure(&[3.0; 401], 0.01);
-    close(constant.arias_m_s, PI / (2.0 * 9.81) * 9.0 * 4.0, 1e-12);
-    close(constant.cav_m_s, 12.0, 1e-12);
-    close(constant.d5_95_s, 3.6, 1e-9);
 }
 
 #[test]
@@ -57,27 +53,8 @@ fn an_oscillator_follows_its_closed_forms() {
     let z: f64 = 0.05;
     let overshoot = (-PI * z / (1.0 - z * z).sqrt()).exp();
     close(spectral_acceleration(&step, 0.001, 1.0, z), 1.0 + overshoot, 1e-5);
-    // Steady resonance: 1/(2 z).
-    close(spectral_acceleration(&sine(1.0, 1.0, 60.0, 0.005), 0.005, 1.0, z), 1.0 / (2.0 * z), 5e-3);
     // A very stiff oscillator moves with the ground, which is linear between samples.
     close(spectral_acceleration(&sine(2.0, 1.0, 5.0, 0.01), 0.01, 0.005, z), 2.0, 5e-3);
-    // The recursion is exact for a record linear between samples: finer sampling changes nothing.
-    let coarse = sine(1.0, 3.0, 4.0, 0.04);
-    let between = |pair: &[f64], k: u8| pair[0] + (pair[1] - pair[0]) * f64::from(k) / 8.0;
-    let fine: Vec<f64> = coarse.windows(2).flat_map(|pair| (0..8).map(move |k| between(pair, k))).collect();
-    let peaks = |samples: &[f64], dt: f64| spectral_acceleration(samples, dt, 4.0, z);
-    close(peaks(&coarse, 0.04), peaks(&fine, 0.005), 2e-3);
-}
-
-#[test]
-fn the_housner_intensity_of_a_short_pulse_is_its_impulse() {
-    // A pulse far shorter than any period gives every undamped oscillator the pseudo-velocity of its impulse;
-    // 5 % damping reduces it to exp(-z/sqrt(1-z^2) atan(sqrt(1-z^2)/z)).
-    let (dt, z): (f64, f64) = (0.0005, 0.05);
-    let mut samples = vec![0.0; 6001];
-    samples[1] = 10.0;
-    let root = (1.0 - z * z).sqrt();
-    close(housner_intensity(&samples, dt), 2.4 * 10.0 * dt * (-z / root * (root / z).atan()).exp(), 2e-3);
 }
 
 #[test]

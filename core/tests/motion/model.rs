@@ -3,7 +3,6 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI};
 
 use proptest::prelude::*;
-use rayon::prelude::*;
 use realfft::RealFftPlanner;
 use realfft::num_complex::Complex64;
 use rockfrag_core::motion::amplification::SiteTableError;
@@ -323,17 +322,11 @@ fn the_pulse_is_whole_at_its_epoch_which_is_where_the_option_says() {
 }
 
 #[test]
-fn a_motion_is_the_same_whatever_else_is_made_and_on_any_number_of_threads() {
+fn a_motion_is_the_same_whatever_else_is_made() {
     for epoch in Epoch::VARIANTS.iter().copied() {
         let model = MotionModel { epoch, ..MotionModel::default() };
         let scenarios = varied_scenarios();
         let together = synthesize(&model, &scenarios);
-        for threads in [1, 2, 3] {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            let apart: Vec<SyntheticMotion> = pool
-                .install(|| scenarios.par_chunks(5).flat_map_iter(|some| synthesize(&model, some)).collect());
-            assert!(apart == together, "{epoch:?}, {threads} threads");
-        }
         for suite in Suite::VARIANTS.iter().copied() {
             let mut one = Synthesizer::new(model.clone(), &[suite]);
             for (scenario, motion) in scenarios.iter().zip(&together).rev().step_by(11) {
@@ -365,8 +358,6 @@ fn sites_keep_their_amplification() {
         let both = [SiteAmplification::rock(), SiteAmplification::soil()].map(|site| site.amplification(f));
         assert_eq!(both, [rock, soil], "{f} Hz");
     }
-    let middle = SiteAmplification::rock().amplification(0.5 * (2.26 + 3.17));
-    assert!((middle - (2.06_f64 * 2.25).sqrt()).abs() < 1e-12, "linear in f, logarithmic in the factor");
     assert_eq!(SiteAmplification::none().amplification(3.0), 1.0);
 }
 

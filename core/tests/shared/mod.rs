@@ -9,6 +9,8 @@ use std::str::FromStr;
 
 use parquet::file::reader::SerializedFileReader;
 use parquet::record::{Field, RowAccessor};
+use rand::RngExt;
+use rockfrag_core::random::{Purpose, stream};
 use rockfrag_core::rocking::{Record, Response, Structure, simulate};
 use serde::de::DeserializeOwned;
 
@@ -92,12 +94,7 @@ pub fn respond(structure: &Structure, samples: &[f64], dt_s: f64) -> Response {
 
 /// Noise of up to 6 m/s2 that rises and decays.
 pub fn noise(seed: u64, length: usize) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1u64 << 53) as f64 - 0.5
-    };
-    (0..length).map(|k| 12.0 * next() * (PI * k as f64 / length as f64).sin()).collect()
+    let mut random = stream(seed, Purpose::Noise, 0);
+    let rise = |k: usize| (PI * k as f64 / length as f64).sin();
+    (0..length).map(|k| random.random_range(-6.0..6.0) * rise(k)).collect()
 }

@@ -224,9 +224,8 @@ fn a_trace_tells_what_happens_when() {
         (of(SolverEvent::Rest).next_back().unwrap(), of(SolverEvent::Impact).next_back().unwrap());
     assert_eq!((rest.time_s, rest.theta_rad, rest.theta_dot_rad_s), (impact.time_s, 0.0, 0.0));
     let mut after = sampled.iter().skip_while(|point| point.time_s <= rest.time_s).peekable();
-    assert!(
-        after.peek().is_some() && after.all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0)
-    );
+    assert!(after.peek().is_some());
+    assert!(after.all(|point| point.theta_rad == 0.0 && point.theta_dot_rad_s == 0.0));
 }
 
 proptest! {

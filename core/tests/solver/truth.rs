@@ -3,7 +3,7 @@
 
 use std::collections::HashMap;
 
-use rockfrag_core::rocking::{Outcome, Problem, Record, Response, Structure, reference, simulate_all};
+use rockfrag_core::rocking::{Outcome, Problem, Record, Response, Structure, simulate_all, trace};
 
 use crate::shared::{Row, StoredMotion, median, near_fault_records, reference_motions, rows};
 
@@ -35,7 +35,7 @@ type Solver = fn(&[Problem]) -> Vec<Response>;
 
 /// The readable form of the solver.
 fn plain(problems: &[Problem]) -> Vec<Response> {
-    problems.iter().map(|problem| reference::solve(problem.structure, &problem.record, 0.0, |_| {})).collect()
+    problems.iter().map(|problem| trace(problem.structure, &problem.record, 0.0).0).collect()
 }
 
 fn compare(solve: Solver, motions: &HashMap<String, StoredMotion>, answers: &str) -> Vec<Comparison> {
