@@ -39,7 +39,7 @@ pub struct Grid {
     notations: Vec<Notation>,
     /// Columns that the user leaves out.
     ignored: Vec<ColumnReading>,
-    /// Lines and columns of cells that a merged one repeats.
+    /// Lines and columns of cells that are merged over rows.
     repeated: HashSet<(usize, usize)>,
 }
 
@@ -68,20 +68,19 @@ impl Grid {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
             let Sheet { first_line, rows, repeated, source } = workbook::read(&bytes, sheet)?;
-            let grid = Grid::new(rows_of_cells(first_line, rows.rows()), source)?;
-            return Ok(Grid { repeated, ..grid });
+            return Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated);
         }
         let (rows, source) = separated::rows(&decode(&bytes)?)?;
-        Grid::new(rows, source)
+        Grid::new(rows, source, &HashSet::new())
     }
 
     /// Takes a table whose cells have points for decimals, as those of a workbook.
     pub fn from_cells(rows: &[Vec<String>]) -> Result<Grid> {
         expect_few_cells(rows.iter().map(Vec::len).sum())?;
-        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), Source::Xlsx)
+        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), Source::Xlsx, &HashSet::new())
     }
 
-    fn new(rows: Vec<RawRow>, source: Source) -> Result<Grid> {
+    fn new(rows: Vec<RawRow>, source: Source, repeated: &HashSet<(usize, usize)>) -> Result<Grid> {
         let Layout { headings, has_headings, roles } = layout(&rows, source)?;
         let width = headings.len();
         let parts: Vec<Vec<Heading>> =
@@ -114,6 +113,9 @@ impl Grid {
                 }
             }
         }
+        // A heading of several columns before a merged cell moves it.
+        let moved = |at: usize| parts.iter().take(at).map(Vec::len).sum();
+        grid.repeated = repeated.iter().map(|(line, at)| (*line, moved(*at))).collect();
         grid.has_headings = has_headings;
         grid.headings =
             parts.into_iter().flatten().chain(has_sections.then(|| Heading::new("Section"))).collect();
@@ -177,7 +179,7 @@ impl Grid {
         Some(self.cell(row, column)).filter(|cell| cell.starts_with('#') || !is_missing(cell))
     }
 
-    /// Whether a merged cell repeats what it says.
+    /// Whether the cell is merged over rows.
     pub fn is_repeated(&self, row: usize, column: usize) -> bool {
         self.repeated.contains(&(self.lines[row], column))
     }
@@ -261,6 +263,8 @@ impl Grid {
             return;
         }
         self.ignored = ignored.iter().map(|at| self.column_reading(*at, Meaning::Ignored)).collect();
+        let moved = |(line, at): &(usize, usize)| Some((*line, kept.iter().position(|kept| kept == at)?));
+        self.repeated = self.repeated.iter().filter_map(moved).collect();
         self.headings = kept.iter().map(|at| self.headings[*at].clone()).collect();
         self.notations = kept.iter().map(|at| self.notations[*at]).collect();
         for row in &mut self.rows {

@@ -142,7 +142,7 @@ impl List<'_> {
             }
             let size = heading.unit.map_or(1.0, |unit| unit.si);
             if let Some((note, unit)) = remarked.filter(|(_, unit)| is_side && unit.si != size) {
-                let found = format!("a unit of lengths, {}, in '{note}'", unit.name);
+                let found = format!("a unit of lengths ({}) in '{note}'", unit.name);
                 return Err(InputError::unexpected(
                     found,
                     "the unit in the heading of each column: Width (mm)",

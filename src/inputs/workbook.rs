@@ -23,7 +23,7 @@ pub struct Sheet {
     /// Line of the first row, from 1.
     pub first_line: usize,
     pub rows: Range<String>,
-    /// Lines and columns of cells that a merged one repeats.
+    /// Lines and columns of cells that are merged over rows.
     pub repeated: HashSet<(usize, usize)>,
     pub source: Source,
 }
@@ -65,7 +65,7 @@ fn find(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
     }
 }
 
-/// Repeats merged cells; returns the places of those that repeat one above.
+/// Repeats merged cells; returns the places of those that are merged over rows.
 fn repeat_merged(
     workbook: &mut Sheets<Cursor<&[u8]>>,
     sheet: &str,
@@ -87,7 +87,7 @@ fn repeat_merged(
                     cells.push(Cell::new((row, column), text.clone()));
                     expect_few_cells(cells.len())?;
                 }
-                repeated.extend((row > merged.start.0).then_some((row, column)));
+                repeated.extend((merged.end.0 > merged.start.0).then_some((row, column)));
             }
         }
     }
