@@ -6,7 +6,7 @@ use rockfrag_core::object::RockingObject;
 
 /// Return periods whose intensities are marked, years: those of the earthquakes that codes design for and
 /// consider.
-const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
+pub const USUAL_YEARS: [f64; 2] = [475.0, 2475.0];
 const BINS: usize = 60;
 
 /// Its fragility there, how often an intensity is exceeded, and where the rate of overturning comes from.

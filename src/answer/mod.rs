@@ -36,12 +36,12 @@ use crate::pipeline::context::Progress;
 use crate::table::file::ParquetTable;
 use crate::table::provenance::Provenance;
 use crate::table::{TableError, rows};
-pub use at_site::AtSite;
+pub use at_site::{AtSite, USUAL_YEARS};
 pub use labels::Labels;
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
-pub use variants::variants;
+use variants::variants;
 
 /// What is asked of an object.
 pub enum Question {
@@ -84,6 +84,16 @@ pub struct Answer {
     /// Where two tables are compared.
     #[serde(skip)]
     pub before: Option<Box<Before>>,
+    /// What each of several files says of the same object under another hazard.
+    #[serde(skip)]
+    pub alternatives: Vec<Alternative>,
+}
+
+/// What a file says of an object.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Alternative {
+    pub file: String,
+    pub p: Interval<Option<f64>>,
 }
 
 /// What an object was before.
@@ -108,11 +118,18 @@ impl Before {
 #[derive(Debug, Clone, Default)]
 pub struct AnswerTable {
     pub rows: Vec<Answer>,
-    /// Those of the worst objects, as far as they are known.
-    pub variants: Vec<Answer>,
+    /// More of the worst objects, the worst first, as far as it is known.
+    pub details: Vec<Detail>,
     pub made: Vec<Provenance>,
-    /// The hazard, and what is drawn of an object that is alone there, as far as they are known.
+    /// The hazard, as far as it is known.
     pub hazard: Option<Hazard>,
+}
+
+/// What is told of an object beside its answer.
+#[derive(Debug, Clone, Default)]
+pub struct Detail {
+    /// Its answer as it is, and with one thing changed at a time.
+    pub variants: Vec<Answer>,
     pub at_site: Option<AtSite>,
 }
 
@@ -216,6 +233,11 @@ impl Answer {
         Ok((answer, Some((rocking, budget))))
     }
 
+    /// What its list says of it under a heading.
+    pub fn label(&self, heading: &str) -> Option<&str> {
+        Some(&*self.labels.iter().find(|(other, _)| other == heading)?.1)
+    }
+
     /// Whether it has an answer: a probability or a fragility.
     pub fn is_answered(&self) -> bool {
         self.severity() >= 0.0
@@ -234,6 +256,24 @@ impl Answer {
         let fragility = &self.fragility;
         let weakness = || fragility.over.map(|_| fragility.overturning.theta.value.map_or(0.0, f64::recip));
         p.value.or(p.high).or_else(weakness).unwrap_or(f64::NEG_INFINITY)
+    }
+}
+
+impl Detail {
+    /// Of an object at a site.
+    pub fn new(object: &Object, site: &Site, years: f64, models: ModelsOf) -> Detail {
+        let rocking = models(object).ok();
+        Detail {
+            variants: variants(object, site, years, models),
+            at_site: rocking.and_then(|(rocking, _)| AtSite::new(site, &rocking)),
+        }
+    }
+
+    /// The variants that differ in their angle or place: others are the same object, known better.
+    pub fn remedies(&self) -> impl Iterator<Item = &Answer> {
+        let place = |one: &Answer| (one.object.alpha_rad, one.object.floor_level);
+        let as_it_is = self.variants.first().map(place);
+        self.variants.iter().filter(move |one| Some(place(one)) != as_it_is)
     }
 }
 
@@ -316,21 +356,23 @@ impl AnswerTable {
             }
         }
         let beside = variants_beside(path);
-        let variants = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
-        Ok(AnswerTable { rows, variants, made: vec![made], ..AnswerTable::default() })
+        let variants: Vec<Answer> = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
+        let of_objects = variants.chunk_by(|a, b| a.object.structure == b.object.structure);
+        let details = of_objects.map(|its| Detail { variants: its.to_vec(), ..Detail::default() }).collect();
+        Ok(AnswerTable { rows, details, made: vec![made], ..AnswerTable::default() })
     }
 
     /// The answers of several files, without a target that is not that of all.
     pub fn joined(all: &[AnswerTable]) -> AnswerTable {
         let mut rows: Vec<Answer> = all.iter().flat_map(|table| table.rows.clone()).collect();
-        let variants = all.iter().flat_map(|table| table.variants.clone()).collect();
+        let details = all.iter().flat_map(|table| table.details.clone()).collect();
         let made = all.iter().flat_map(|table| table.made.clone()).collect();
         let target = rows.iter().find_map(|answer| answer.rates.target);
         if rows.iter().any(|answer| answer.is_answered() && answer.rates.target != target) {
             rows.iter_mut()
                 .for_each(|answer| (answer.rates.target, answer.rates.bases) = (None, Bases::default()));
         }
-        AnswerTable { rows, variants, made, ..AnswerTable::default() }
+        AnswerTable { rows, details, made, ..AnswerTable::default() }
     }
 
     /// The name of its file; none of a call's own answers.

@@ -26,10 +26,9 @@ const TITLE: f64 = 12.0;
 const LABEL: f64 = 10.0;
 const GAP: f64 = 6.0;
 const BELOW: f64 = 26.0;
-/// Height of a row with a name; the most room for names, and its most share of the width.
+/// Height of a row with a name, and the most share of the width for names.
 const ROW: f64 = 13.0;
-const NAMES: f64 = 190.0;
-const NAMES_SHARE: f64 = 0.46;
+const NAMES: f64 = 0.55;
 /// Height of a line of the legend, length of its marks, and room before it and between its entries.
 const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
@@ -150,8 +149,9 @@ impl Panel {
 
     /// The room at the left for ticks or names, and at the right for words in the margin.
     fn sides(&self, across: f64) -> [f64; 2] {
-        let room = |marked: &String| width(marked, SMALL) + 8.0;
-        let left = self.names().iter().map(room).fold(LEFT, f64::max).min(NAMES.min(NAMES_SHARE * across));
+        // Other fonts are wider.
+        let room = |marked: &String| 1.1 * width(marked, SMALL) + 8.0;
+        let left = self.names().iter().map(room).fold(LEFT, f64::max).min(NAMES * across);
         let words = self.words.iter().filter(|words| words.position == LabelPosition::Margin);
         let right = words.map(|words| room(&words.text)).fold(RIGHT, f64::max);
         [if self.frame == Frame::ToScale { 4.0 } else { left }, right]

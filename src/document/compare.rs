@@ -1,32 +1,75 @@
-//! The document of two tables of answers, before and after: the list of those after, each with what it was
-//! before. They are joined by the names of the objects.
+//! The document of several tables of answers for the same objects: before and after, or alternatives under
+//! different hazards.
+
+use std::collections::BTreeSet;
 
 use rockfrag_core::hazard::Budget;
 use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::Document;
-use super::list::expected_number;
-use crate::answer::{Answer, AnswerTable, Before};
-use crate::number::{counted, listed, significant};
+use super::list::{expected_of_list, pieces};
+use crate::answer::{Alternative, Answer, AnswerTable, Before};
+use crate::number::{count, counted, listed, significant};
 
 /// Objects that are named in a line.
 const NAMED: usize = 20;
 
-/// None where the tables have no object with an answer in common.
-pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
-    let [old, new] = [before, after].map(|table| table.made.first()?.input("hazard"));
-    let is_same = old == new;
+/// None where the tables are of other objects, or there is only one.
+pub fn document(tables: &[AnswerTable]) -> Option<Document> {
+    let [first, others @ ..] = tables else { return None };
+    let hazard = |table: &AnswerTable| table.made.first()?.input("hazard");
+    let is_alternative = |other: &AnswerTable| {
+        let same = partners(&first.rows, &other.rows);
+        let is_whole = first.rows.len() == other.rows.len() && same.iter().all(Option::is_some);
+        let equal = |(answer, one): (&Answer, &Option<usize>)| {
+            one.is_some_and(|one| changes([&first.rows[one], answer]).is_empty())
+        };
+        is_whole && hazard(first) != hazard(other) && other.rows.iter().zip(&same).all(equal)
+    };
+    match others {
+        [] => None,
+        _ if others.iter().all(is_alternative) => Some(alternatives(tables)),
+        [after] => before_and_after(first, after, hazard(first) == hazard(after)),
+        _ => None,
+    }
+}
+
+/// The rows of the first table, each with what every table says of it.
+fn alternatives(tables: &[AnswerTable]) -> Document {
+    let mut all = AnswerTable { details: Vec::new(), ..tables[0].clone() };
+    all.made = tables.iter().flat_map(|table| table.made.clone()).collect();
+    for table in tables {
+        for (answer, one) in all.rows.iter_mut().zip(partners(&table.rows, &tables[0].rows)) {
+            let p = one.map_or(Interval::default(), |one| table.rows[one].p.p_overturning);
+            answer.alternatives.push(Alternative { file: table.file(), p });
+        }
+    }
+    let joined = AnswerTable { details: Vec::new(), ..AnswerTable::joined(tables) };
+    let (now, files) = (Document::of_answers(&all), Document::of_answers(&joined));
+    let title = format!("{}, {} alternatives", now.title, tables.len());
+    Document { title, lead: files.lead, tiles: files.tiles, notes: files.notes, overview: Vec::new(), ..now }
+}
+
+/// The list after, each object with what it was before; none where no object with an answer is in both.
+fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) -> Option<Document> {
     let mut table = after.clone();
-    for answer in &mut table.rows {
-        let one = namesake(answer, &before.rows).filter(|one| one.is_answered() || answer.is_answered());
+    let partners = partners(&before.rows, &after.rows);
+    for (answer, one) in table.rows.iter_mut().zip(&partners) {
+        let one = one.map(|one| &before.rows[one]).filter(|one| one.is_answered() || answer.is_answered());
         answer.before = one.map(|one| Box::new(before_of(one, answer, is_same)));
     }
-    let both = table.rows.iter().filter(|answer| answer.before.is_some()).count();
-    let changed = table.rows.iter().filter(|answer| answer.before.is_some() && answer.is_news()).count();
-    let gone = before.rows.iter().filter(|one| namesake(one, &after.rows).is_none());
-    let gone: Vec<String> = gone.map(|one| one.object.called()).collect();
-    let gone = (!gone.is_empty()).then(|| format!("Only before: {}.", listed(&gone, NAMED)));
+    let in_both = table.rows.iter().filter(|answer| answer.before.is_some());
+    let both = pieces(in_both.clone());
+    let changed = count(pieces(in_both.filter(|answer| answer.is_news())));
+    let gone = before.rows.iter().enumerate().filter(|(at, _)| !partners.contains(&Some(*at)));
+    let new = after.rows.iter().zip(&partners).filter(|(_, one)| one.is_none());
+    let [gone, new] = [gone.map(|(_, one)| one).collect::<Vec<_>>(), new.map(|(one, _)| one).collect()];
+    let unmatched = [("before", gone), ("after", new)].into_iter().filter(|(_, only)| !only.is_empty());
+    let unmatched = unmatched.map(|(when, only)| {
+        let names: Vec<String> = only.iter().map(|one| one.object.called()).collect();
+        format!("Only {when}: {}.", listed(&names, NAMED))
+    });
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let shared = if is_same { "" } else { ", but for PGV/PGA, as the hazards differ" };
     let ratios = format!(
@@ -35,20 +78,58 @@ pub fn document(before: &AnswerTable, after: &AnswerTable) -> Option<Document> {
     );
     let mut now = Document::of_answers(&table);
     now.lead.insert(0, format!("{changed} of {} changed.", counted(both, "object")));
+    let expected = expected_of_list(&before.rows.iter().collect::<Vec<_>>());
     for tile in now.tiles.iter_mut().take(1) {
-        tile.number = format!("{} → {}", expected_number(&before.rows), tile.number);
+        tile.number = format!("{expected} → {}", tile.number);
     }
     (both > 0).then(|| Document {
         title: format!("{}, before and after", now.title),
         place: format!("Before: {}; after: {}{hazards}", before.file(), after.file()),
         facts: [vec![ratios], now.facts].concat(),
-        notes: gone.into_iter().chain(now.notes).collect(),
+        notes: unmatched.chain(now.notes).collect(),
         ..now
     })
 }
 
-fn namesake<'a>(answer: &Answer, others: &'a [Answer]) -> Option<&'a Answer> {
-    others.iter().find(|other| other.object.structure == answer.object.structure)
+/// What is the same of an object in both lists, if it tells.
+type Key<'a> = &'a dyn Fn(&Answer) -> Option<String>;
+
+/// For each row of the second list the same object of the first: by the tags of both, where they have such a
+/// column; else by a name that is no line of a list; else by the name without it and the size.
+fn partners(before: &[Answer], after: &[Answer]) -> Vec<Option<usize>> {
+    let tag = tags(before).find(|heading| tags(after).any(|other| other == *heading));
+    let by_tag = |one: &Answer| Some(one.label(tag?)?.to_string());
+    let by_name = |one: &Answer| {
+        Some(one.object.structure.clone()).filter(|name| tag.is_none() && without_line(name) == name)
+    };
+    let by_size = |one: &Answer| {
+        tag.is_none().then(|| format!("{} {}", without_line(&one.object.structure), one.object.size()))
+    };
+    let mut left: Vec<usize> = (0..before.len()).collect();
+    let mut partners = vec![None; after.len()];
+    for key in [&by_tag as Key, &by_name, &by_size] {
+        for (partner, answer) in partners.iter_mut().zip(after).filter(|(partner, _)| partner.is_none()) {
+            let wanted = key(answer);
+            let same = left.iter().position(|at| wanted.is_some() && key(&before[*at]) == wanted);
+            *partner = same.map(|same| left.remove(same));
+        }
+    }
+    partners
+}
+
+/// Headings of a list under which each row has another text.
+fn tags(rows: &[Answer]) -> impl Iterator<Item = &str> {
+    let headings = rows.first().into_iter().flat_map(|first| &first.labels).map(|(heading, _)| &**heading);
+    headings.filter(|heading| {
+        let cells: BTreeSet<&str> = rows.iter().filter_map(|one| one.label(heading)).collect();
+        cells.len() == rows.len() && !cells.contains("")
+    })
+}
+
+/// A name without the line by which a list tells it from others of this name.
+fn without_line(name: &str) -> &str {
+    let name = name.split_once(" (line ").map_or(name, |(name, _)| name);
+    if name.starts_with("line ") { "" } else { name }
 }
 
 /// PGV/PGA, and what is not known of the hazard, is the same only under the same hazard.

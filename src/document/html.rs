@@ -9,12 +9,6 @@ use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
-/// Columns of a table that have room beside a figure.
-const BESIDE: usize = 6;
-/// What two words mean.
-const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
-                      velocity after an impact over that before.";
-
 impl Document {
     /// # Errors
     /// If it has nothing to show.
@@ -26,26 +20,7 @@ impl Document {
             let is_said = words(&figure.title) == title;
             write_figure(figure, if is_said { "" } else { &figure.title })
         };
-        let is_beside = !self.tables.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
-        let mut columns: Vec<Column> = self.tables.iter().take(1).flat_map(Table::columns).collect();
-        let mut below = Vec::new();
-        if is_beside {
-            // Labels stand behind the names, where there is room for both: each part has the names.
-            let (labels, first): (Vec<_>, Vec<_>) = columns.into_iter().partition(|column| column.is_label);
-            let (beside, others) = first.split_at(first.len().min(BESIDE));
-            let names = &beside[..usize::from(!(labels.is_empty() && others.is_empty()))];
-            below = [names, &labels, others].concat();
-            columns = beside.to_vec();
-        }
-        let told = html! {
-            @if !(self.tables.is_empty() && self.notes.is_empty()) {
-                div {
-                    (paragraphs(&self.gaps))
-                    @if let Some(table) = self.tables.first() { (write_columns(&table.caption, &columns)) }
-                    div class="notes" { (paragraphs(&self.notes)) }
-                }
-            }
-        };
+        let is_beside = !self.overview.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
         let page = html! {
             (DOCTYPE)
             html lang="en" {
@@ -71,17 +46,18 @@ impl Document {
                         }
                     }
                     main {
+                        (paragraphs(&self.gaps))
                         div class=(if is_beside { "first" } else { "" }) {
-                            @if is_beside { (told) }
+                            div { @for table in &self.overview { (write_table(table)) } }
                             @if let Some(first) = first { (figure(first)) }
-                            @if !is_beside { (told) }
                         }
+                        @for table in self.tables.iter().take(1) { (write_table(table)) }
+                        div class="notes" { (paragraphs(&self.notes)) }
                         div class="figures" { @for one in self.figures.iter().skip(1) { (figure(one)) } }
-                        @if !below.is_empty() { (write_columns("", &below)) }
                         @for table in self.tables.iter().skip(1) { (write_table(table)) }
-                        div class="facts" {
-                            (paragraphs(&self.facts))
-                            p { (write(ANGLES)) }
+                        section class="basis" {
+                            h2 { (if self.assumptions.is_empty() { "" } else { "Assumptions and limits" }) }
+                            div class="facts" { (paragraphs(&self.facts)) (paragraphs(&self.assumptions)) }
                         }
                         @for section in &self.sections { (write_section(section)) }
                     }
@@ -132,25 +108,26 @@ fn write_figure(figure: &Figure, title: &str) -> Markup {
 }
 
 fn write_table(table: &Table) -> Markup {
-    write_columns(&table.caption, &table.columns().collect::<Vec<_>>())
-}
-
-fn write_columns(caption: &str, columns: &[Column]) -> Markup {
-    let class = |column: &Column| column.is_number.then_some("number");
+    let columns: Vec<Column> = table.columns().collect();
+    let class = |column: &Column| match (column.is_number, column.is_short) {
+        (true, _) => Some("number"),
+        (_, true) => Some("short"),
+        _ => None,
+    };
     // What is wider than a small screen is scrolled, by keys too.
     html! {
-        p class="caption" { (write(caption)) }
-        div class="scroll" tabindex="0" role="group" aria-label=(words(caption)) {
+        p class="caption" { (write(&table.caption)) }
+        div class="scroll" tabindex="0" role="group" aria-label=(words(&table.caption)) {
             table {
                 thead {
                     tr {
-                        @for column in columns { th scope="col" class=[class(column)] { (write(column.head)) } }
+                        @for column in &columns { th scope="col" class=[class(column)] { (write(column.head)) } }
                     }
                 }
                 tbody {
-                    @for row in 0..columns.first().map_or(0, |column| column.cells.len()) {
+                    @for row in 0..table.rows.len() {
                         tr {
-                            @for column in columns {
+                            @for column in &columns {
                                 td class=[class(column)] data-head=(words(column.head)) {
                                     (write(column.cells[row]))
                                 }

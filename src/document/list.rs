@@ -2,13 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use super::phrases::{facts, intensity, intensity_cells};
-use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, Before, StateColumns};
+use super::phrases::{assumptions, facts, intensity_cells};
+use super::{Document, Table, Tile, object};
+use crate::answer::{Answer, AnswerTable, Before, Detail, StateColumns};
 use crate::chart::text::literal;
-use crate::figures::answers::{self, BANDS};
+use crate::figures::answers;
 use crate::figures::common::by;
-use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, fixed, listed, period, plain};
+use crate::inputs::SECTION;
+use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, listed, plain};
 
 /// The most files whose expected numbers are shown, and objects that are named in a sentence.
 const FILES: usize = 3;
@@ -21,31 +22,104 @@ pub fn document(table: &AnswerTable) -> Document {
     let when = worst.when().unwrap_or_default();
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
     let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
-    let title = format!("{}: {what}", counted(table.rows.len(), "object"));
+    let all = pieces(&table.rows);
+    let title = format!("{}: {what}", counted(all, "object"));
     let news: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_news()).collect();
-    let (all, same) = table_of(&news, &when);
+    let (rows, same) = table_of(&news, &when);
     if answered.is_empty() {
         let lead = not_assessed(&table.rows).into_iter().collect();
-        return Document { title, lead, tables: vec![all], ..Document::default() };
+        return Document { title, lead, tables: vec![rows], ..Document::default() };
     }
-    let upstairs = answered.iter().filter(|answer| answer.object.is_upstairs()).count();
-    let [all_free, upstairs] = [answered.len(), upstairs].map(count);
+    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.is_upstairs()));
+    let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
+    let kinds = if all > table.rows.len() {
+        format!(" in {}", counted(table.rows.len(), "row"))
+    } else {
+        String::new()
+    };
     let whose = format!(" of {}", worst.object.called());
     let lead = [Some(worst_of(table)), worst.about_target(&whose), not_assessed(&table.rows)];
+    let sections = table.details.iter().filter_map(|detail| section(table, detail));
+    let of_place = by_place(&answered, "floor", |answer| answer.object.short_place());
+    let of_section =
+        by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
     Document {
         title,
-        place: format!("{all_free} free-standing ({upstairs} on floors){}", table.conditions()),
+        place: format!(
+            "{free} of {} free-standing{kinds} ({upstairs} on floors){}",
+            count(all),
+            table.conditions()
+        ),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
-        tables: [all].into_iter().chain(changes(&table.variants, &when)).collect(),
+        assumptions: assumptions(&answered),
+        overview: [remedies(table, &when), of_place, of_section].into_iter().flatten().collect(),
+        tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
             Some(_) => answers::fragilities(&answered),
             None => vec![answers::list(&news, &when, worst.rates.target)],
         },
+        sections: sections.collect(),
         ..Document::default()
     }
+}
+
+/// The number of objects: a row of a list may have several.
+pub fn pieces<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> usize {
+    answers.into_iter().map(|answer| answer.object.count.unwrap_or(1.0)).sum::<f64>() as usize
+}
+
+/// The document of one of the worst objects, folded.
+fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
+    let as_it_is = detail.variants.first()?;
+    let mut document = object::document(table, as_it_is, detail);
+    document.facts = [document.lead.split_off(0), document.notes.split_off(0)].concat();
+    Some(document)
+}
+
+/// How many objects of each place are above the target, and are to be expected to overturn; none of a single
+/// place.
+fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
+    let groups = by(answers.iter().copied(), place);
+    let target = answers[0].rates.target;
+    let row = |group: &Vec<&Answer>| {
+        let above =
+            group.iter().copied().filter(|answer| target.is_some_and(|most| answer.severity() > most));
+        let above = target.map_or(String::new(), |_| count(pieces(above)));
+        vec![place(group[0]), count(pieces(group.iter().copied())), above, expected_number(group)]
+    };
+    let above = target.map_or(String::new(), |target| format!("above {}", PERCENT.one(target)));
+    let heads = [head, "objects", &above, "expected to overturn"];
+    let is_told = groups.len() > 1 && answers[0].fragility.over.is_none();
+    is_told.then(|| Table::new(&heads, groups.iter().map(row).collect()).explained(&format!("By {head}")))
+}
+
+/// What the worst objects come to with one thing changed, in percent.
+fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
+    let worst = &table.details;
+    let mut heads = vec!["object".to_string(), "as it is".to_string()];
+    for change in worst.iter().flat_map(|detail| detail.remedies()) {
+        let words = change.variant.clone().unwrap_or_default();
+        if !heads.contains(&words) {
+            heads.push(words);
+        }
+    }
+    let row = |detail: &Detail| {
+        let of = |head: &String| {
+            let one = detail.variants.iter().find(|one| one.variant.as_ref() == Some(head));
+            one.map_or(String::new(), |one| OF_HUNDRED.value(one.p.p_overturning))
+        };
+        let name = detail.variants[0].object.called();
+        std::iter::once(name).chain(heads[1..].iter().map(of)).collect()
+    };
+    let rows: Vec<Vec<String>> = worst.iter().map(row).collect();
+    let caption = format!(
+        "What would change the worst: anchored (forces by ASCE 7 chapter 13 or EN 1998-1 4.3.5) none rocks; \
+         else the probability of overturning {when}, %, with one thing changed"
+    );
+    (!rows.is_empty()).then_some(Table { caption, heads, rows, ..Table::default() })
 }
 
 /// The object that is the most likely to overturn, if one may.
@@ -69,9 +143,9 @@ fn file_of(answer: &Answer, table: &AnswerTable) -> String {
 
 /// The objects without an answer; the table says why.
 fn not_assessed(answers: &[Answer]) -> Option<String> {
-    let silent = answers.iter().filter(|answer| !answer.is_answered());
-    let names: Vec<String> = silent.map(|answer| answer.object.called()).collect();
-    let [some, all] = [names.len(), answers.len()].map(count);
+    let silent: Vec<&Answer> = answers.iter().filter(|answer| !answer.is_answered()).collect();
+    let names: Vec<String> = silent.iter().map(|answer| answer.object.called()).collect();
+    let [some, all] = [pieces(silent), pieces(answers)].map(count);
     (!names.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", listed(&names, NAMED)))
 }
 
@@ -80,44 +154,49 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     // The same object may stand in several files, under several hazards: their sum would be of nothing.
     let files = by(&table.rows, |answer| &answer.file);
     for answers in files.iter().take(FILES) {
-        let answered = answers.iter().filter(|answer| answer.is_answered());
-        let all: f64 = answered.map(|answer| answer.object.count.unwrap_or(1.0)).sum();
-        let (all, file) = (counted(all as usize, "object"), file_of(answers[0], table));
+        let answered = answers.iter().copied().filter(|answer| answer.is_answered());
+        let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
         let words = format!("of {all} expected to overturn {when}{limits}{file}");
-        tiles.push(Tile::new(expected_number(answers.iter().copied()), words));
+        tiles.push(Tile::new(expected_of_list(answers), words));
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
         let words = format!("probability that at least one overturns{}", PERCENT.limits(any, "95 % limits "));
         tiles.extend(any.value.or(any.high).map(|_| Tile::new(PERCENT.value(any), words)));
-        let target = table.rows[0].rates.target;
-        let most = target.unwrap_or(BANDS[0]);
-        let above = table.rows.iter().filter(|answer| answer.severity() > most).count();
-        let words = if target.is_some() { "above the target of" } else { "above" };
-        tiles.push(Tile::new(count(above), format!("{words} {}", PERCENT.one(most))));
+        tiles.extend(table.rows[0].rates.target.map(|target| {
+            let above = pieces(table.rows.iter().filter(|answer| answer.severity() > target));
+            Tile::new(count(above), format!("objects above the target of {}", PERCENT.one(target)))
+        }));
     }
     tiles
 }
 
-/// The expected number of the objects of a file that overturn.
-pub fn expected_number<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> String {
-    let mut answers = answers.into_iter().peekable();
-    let of_list = answers.peek().and_then(|answer| answer.list.expected_number.value);
-    let number = |answer: &Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
-    TWO_DIGITS.one(of_list.unwrap_or_else(|| answers.filter_map(number).sum()))
+/// How many of the objects of a list are to be expected to overturn.
+pub fn expected_of_list(rows: &[&Answer]) -> String {
+    let of_list = rows.first().and_then(|answer| answer.list.expected_number.value);
+    of_list.map_or_else(|| expected_number(rows), |number| TWO_DIGITS.one(number))
+}
+
+fn expected_number(some: &[&Answer]) -> String {
+    let number = |answer: &&Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
+    TWO_DIGITS.one(some.iter().filter_map(number).sum())
 }
 
 /// What stands in a cell of an answer.
 type Cell = fn(&Answer) -> String;
 
-/// The columns; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 23] = [
+/// The columns behind the list's own; of those in the time of exposure there is an @.
+const COLUMNS: [(&str, Cell); 18] = [
+    ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
+    ("number", |answer| answer.object.count.map_or(String::new(), plain)),
+    ("place", |answer| answer.object.short_place()),
+    ("file", |answer| literal(&answer.file)),
     ("change", |answer| of_before(answer, |before| before.changes.join("; "))),
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
-    ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
+    (OVERTURNS, |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
-    ("95 % limits", limits),
+    (LIMITS, limits),
     ("times as often", |answer| of_before(answer, Before::times)),
     ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
@@ -125,54 +204,51 @@ const COLUMNS: [(&str, Cell); 23] = [
     ("beta", |answer| of_fragility(answer, 4)),
     ("over PGA half at", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 0))),
     ("over PGA, limits", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 1))),
-    ("place", |answer| answer.object.short_place()),
-    ("file", |answer| literal(&answer.file)),
-    ("base for the target", base),
-    ("half rock too far, or overturn at", |Answer { fragility, .. }| {
-        fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
-    }),
-    ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
-    ("rocks too far @, %", |answer| of_states(answer, |p| OF_HUNDRED.value(p.p_failure))),
-    ("friction needed", |answer| answer.object.friction_needed().map_or(String::new(), |of| fixed(of, 2))),
-    ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
-    ("number", |answer| answer.object.count.map_or(String::new(), plain)),
-    ("responses", |answer| answer.object.responses.map_or(String::new(), |n| count(n as usize))),
+    ("anchors, or a base of", base),
     ("not assessed", |answer| if answer.is_answered() { String::new() } else { answer.reason() }),
 ];
+const OVERTURNS: &str = "overturns @, %";
+const LIMITS: &str = "95 % limits";
 /// Columns that are there although all objects have the same; others are then said once, but for these.
-const ALWAYS: [&str; 7] = [
+const ALWAYS: [&str; 8] = [
     "change",
     "before, %",
-    "overturns @, %",
-    "95 % limits",
+    OVERTURNS,
+    LIMITS,
     "times as often",
     "times, 95 % limits",
+    "anchors, or a base of",
     "not assessed",
 ];
-const UNSAID: [&str; 3] = ["place", "file", "responses"];
+const UNSAID: [&str; 2] = ["place", "file"];
 
 /// The answers, and what is the same for all objects.
 fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
-    let mut rows: Vec<Vec<String>> = answers.iter().map(|answer| vec![answer.object.called()]).collect();
-    let (mut heads, mut same) = (vec!["object".to_string()], Vec::new());
+    let column = |cell: &dyn Fn(&Answer) -> String| answers.iter().map(|answer| cell(answer)).collect();
+    let mut columns: Vec<(String, Vec<String>)> =
+        vec![("object".to_string(), column(&|answer| answer.object.called()))];
     for (heading, _) in answers.iter().flat_map(|answer| &answer.labels) {
         let head = literal(heading);
-        if !heads.contains(&head) {
-            heads.push(head);
-            for (row, answer) in rows.iter_mut().zip(answers) {
-                let label = answer.labels.iter().find(|(other, _)| other == heading);
-                row.push(label.map_or(String::new(), |(_, cell)| literal(cell)));
-            }
+        if columns.iter().all(|(other, _)| *other != head) {
+            columns.push((head, column(&|answer| literal(answer.label(heading).unwrap_or_default()))));
         }
     }
-    let labels = heads.len() - 1;
+    let (labels, mut same) = (columns.len() - 1, Vec::new());
+    let files = answers.first().map_or(0, |answer| answer.alternatives.len());
     for (name, cell) in &COLUMNS {
         let head = name.replace('@', when);
         let known = answers.iter().filter(|answer| answer.is_answered());
         let differ: BTreeSet<String> = known.map(|answer| cell(answer)).collect();
-        if differ.len() > 1 || ALWAYS.contains(name) {
-            heads.push(head);
-            rows.iter_mut().zip(answers).for_each(|(row, answer)| row.push(cell(answer)));
+        if files > 0 && *name == OVERTURNS {
+            // A column and its limits for each file.
+            for at in 0..files {
+                let file = &answers[0].alternatives[at].file;
+                let p = |answer: &Answer| answer.alternatives[at].p;
+                columns.push((format!("{file}: {head}"), column(&|answer| OF_HUNDRED.value(p(answer)))));
+                columns.push((LIMITS.to_string(), column(&|answer| OF_HUNDRED.span(p(answer)))));
+            }
+        } else if (differ.len() > 1 || ALWAYS.contains(name)) && (files == 0 || *name != LIMITS) {
+            columns.push((head, column(cell)));
         } else if !UNSAID.contains(name) {
             same.extend(
                 differ.first().filter(|value| !value.is_empty()).map(|value| format!("{head} {value}")),
@@ -180,19 +256,10 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
         }
     }
     let same = (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", ")));
+    let cells = |row: usize| columns.iter().map(|(_, cells)| cells[row].clone()).collect();
+    let rows = (0..answers.len()).map(cells).collect();
+    let heads = columns.iter().map(|(head, _)| head.clone()).collect();
     (Table { heads, rows, labels, ..Table::default() }, same)
-}
-
-/// What would change the worst objects.
-fn changes(variants: &[Answer], when: &str) -> Option<Table> {
-    let rows = variants.iter().map(|one| {
-        let (p, words) = (one.p.p_overturning, one.variant.clone().unwrap_or_default());
-        vec![one.object.called(), words, OF_HUNDRED.value(p), OF_HUNDRED.span(p)]
-    });
-    let heads = ["object", "changed", &format!("overturns {when}, %"), "95 % limits"];
-    (!variants.is_empty()).then(|| {
-        Table::new(&heads, rows.collect()).explained("What would change the worst, one thing at a time")
-    })
 }
 
 /// A cell of the probabilities of an object that has them.
@@ -215,10 +282,10 @@ fn limits(answer: &Answer) -> String {
 }
 
 /// The base with which an object meets the target, if there is one.
-fn base(answer: &Answer) -> String {
+pub fn base(answer: &Answer) -> String {
     match answer.rates.target.filter(|_| answer.is_answered()) {
         None => String::new(),
-        Some(target) if answer.severity() <= target => "meets it".to_string(),
+        Some(target) if answer.severity() <= target => "not needed".to_string(),
         Some(_) => {
             answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}"))
         }

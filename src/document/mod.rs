@@ -9,7 +9,8 @@
 //! response   of a response over time, and the block as it moves
 //! text       a document for a terminal
 //! html       as a page
-//! workbook   a table as a workbook
+//! sheet      answers as people open them in a workbook
+//! workbook   a frame as a workbook
 //! ```
 
 pub mod compare;
@@ -19,21 +20,25 @@ mod object;
 pub mod phrases;
 pub mod readings;
 pub mod response;
+mod sheet;
 mod text;
 mod workbook;
 
 use anyhow::Context;
+use clap::Args;
+use serde::{Deserialize, Serialize};
 
-use crate::answer::AnswerTable;
+use crate::answer::{AnswerTable, Detail};
 use crate::chart::Figure;
 use crate::chart::text::literal;
+pub use sheet::sheet;
 pub use workbook::workbook;
 
 /// What is told of rows, from top to bottom. All texts are marked, see [`crate::chart::text`].
 #[derive(Debug, Clone, Default)]
 pub struct Document {
     pub title: String,
-    /// Author and date, as far as given.
+    /// Project, author and date, as far as given.
     pub byline: String,
     /// Where it stands and at which site.
     pub place: String,
@@ -43,16 +48,36 @@ pub struct Document {
     pub gaps: Vec<String>,
     /// The numbers that answer what is asked first.
     pub tiles: Vec<Tile>,
-    /// Of a page, the first stands beside the first figure if that is of one panel, as far as it has room
-    /// there, else below it; others below all figures.
+    /// What is to be seen before the tables, on a page beside the first figure.
+    pub overview: Vec<Table>,
     pub tables: Vec<Table>,
     /// What was asked, and what the result rests on.
     pub facts: Vec<String>,
+    /// What else it rests on, on a page.
+    pub assumptions: Vec<String>,
     /// Warnings that change a decision.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
     /// Folded, each with a title, facts, tables and figures: method, tests, files.
     pub sections: Vec<Document>,
+}
+
+/// What its author writes on a page.
+#[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct PageArgs {
+    /// Title of the page [default: from what it shows]
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// Project, below the title
+    #[arg(long, value_name = "TEXT")]
+    project: Option<String>,
+    /// Author, below the title
+    #[arg(long, value_name = "TEXT")]
+    author: Option<String>,
+    /// Date, below the title
+    #[arg(long, value_name = "TEXT")]
+    date: Option<String>,
 }
 
 /// A number in large letters, with what it is.
@@ -80,6 +105,8 @@ struct Column<'a> {
     is_label: bool,
     /// Whether all its cells are numbers, which are set to the right.
     is_number: bool,
+    /// Whether all its cells are so short that none is broken.
+    is_short: bool,
     cells: Vec<&'a str>,
 }
 
@@ -107,10 +134,14 @@ impl Table {
             written.peek()?;
             let is_number = at > 0 && written.all(|cell| is_number(cell));
             let is_label = (1..=self.labels).contains(&at);
-            Some(Column { head, is_label, is_number, cells })
+            let is_short = cells.iter().all(|cell| cell.chars().count() <= SHORT);
+            Some(Column { head, is_label, is_number, is_short, cells })
         })
     }
 }
+
+/// Letters of a short cell.
+const SHORT: usize = 12;
 
 fn is_number(cell: &str) -> bool {
     cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
@@ -121,14 +152,24 @@ impl Document {
     pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
-        let document = match &sorted.rows[..] {
-            [one] if one.before.is_none() => object::document(&sorted, one),
+        let mut document = match &sorted.rows[..] {
+            [one] if one.before.is_none() => {
+                object::document(&sorted, one, table.details.first().unwrap_or(&Detail::default()))
+            }
             _ => list::document(&sorted),
         };
         let readings = table.readings();
-        let gaps = readings.iter().filter_map(|reading| Some(literal(&reading.gaps()?)));
-        let section = Some(readings::section(&readings)).filter(Document::has_content);
-        Document { gaps: gaps.collect(), sections: section.into_iter().collect(), ..document }
+        document.gaps = readings.iter().filter_map(|reading| Some(literal(&reading.gaps()?))).collect();
+        document.sections.extend(Some(readings::section(&readings)).filter(Document::has_content));
+        document
+    }
+
+    /// With a title, author, date and project of its own.
+    pub fn signed(self, by: &PageArgs) -> Document {
+        let PageArgs { title, author, date, project } = by;
+        let byline = [project, author, date].into_iter().flatten().map(|text| literal(text));
+        let title = title.as_ref().map_or(self.title, |title| literal(title));
+        Document { title, byline: byline.collect::<Vec<_>>().join(", "), ..self }
     }
 
     pub fn has_content(&self) -> bool {

@@ -5,54 +5,48 @@ use std::iter;
 use rockfrag_core::hazard::Fragility;
 use rockfrag_core::statistics::Interval;
 
-use super::phrases::{facts, intensity, intensity_cells};
+use super::phrases::{assumptions, facts, intensity, intensity_cells};
 use super::{Document, Table, Tile};
-use crate::answer::{Answer, AnswerTable, FragilityColumns, over_all};
+use crate::answer::{Answer, AnswerTable, Detail, FragilityColumns, over_all};
 use crate::chart::text::literal;
 use crate::figures::answers;
 use crate::number::{PERCENT, RATE};
 
-pub fn document(table: &AnswerTable, answer: &Answer) -> Document {
+pub fn document(table: &AnswerTable, answer: &Answer, detail: &Detail) -> Document {
     let when = answer.when().unwrap_or_default();
-    let (variants, hazard) = (&table.variants[..], table.hazard.as_ref());
     let is_rocking = answer.tree.p_nr.filter(|p_nr| *p_nr < 1.0);
     let uplift = is_rocking.map(|_| format!("It {}.", answer.uplift()));
     Document {
         title: answer.object.title(),
         place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),
         lead: iter::once(format!("It {}.", answer.how_often())).chain(answer.about_target("")).collect(),
-        tiles: tiles(&when, variants, table),
-        facts: uplift.into_iter().chain(facts(&[answer], hazard)).collect(),
+        tiles: tiles(&when, detail),
+        facts: uplift.into_iter().chain(facts(&[answer], table.hazard.as_ref())).collect(),
+        assumptions: assumptions(&[answer]),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
-        tables: answer.is_answered().then(|| numbers(&when, answer, variants)).into_iter().collect(),
+        tables: answer.is_answered().then(|| numbers(&when, answer, &detail.variants)).into_iter().collect(),
         figures: match answer.fragility.over {
             Some(_) => answers::fragilities(&[answer]),
-            None => vec![answers::object(answer, variants, table.at_site.as_ref())],
+            None => vec![answers::object(answer, &detail.variants, detail.at_site.as_ref())],
         },
         ..Document::default()
     }
 }
 
-/// The object as it is; the change that helps most, nothing that is only measured; another floor; and the
-/// motion that overturns it.
-fn tiles(when: &str, variants: &[Answer], table: &AnswerTable) -> Vec<Tile> {
+/// The object as it is; the change that helps most, nothing that is only measured; and the motion that
+/// overturns it.
+fn tiles(when: &str, detail: &Detail) -> Vec<Tile> {
+    let p = |one: &Answer| one.p.p_overturning.value.unwrap_or(1.0);
+    let as_it_is = detail.variants.first();
+    let best = detail.remedies().min_by(|a, b| p(a).total_cmp(&p(b)));
+    let best = best.filter(|best| as_it_is.is_some_and(|as_it_is| p(best) < p(as_it_is)));
     let mut tiles = Vec::new();
-    if let [as_it_is, others @ ..] = variants {
-        let p = |one: &Answer| one.p.p_overturning.value.unwrap_or(1.0);
-        let is_moved = |one: &Answer| one.object.floor_level != as_it_is.object.floor_level;
-        // Where its angle stays it is only known better.
-        let is_leaner = |one: &Answer| one.object.alpha_rad != as_it_is.object.alpha_rad;
-        let changed = others.iter().filter(|one| is_leaner(one) || is_moved(one));
-        let best = changed.clone().min_by(|a, b| p(a).total_cmp(&p(b)));
-        let best = best.filter(|best| p(best) < p(as_it_is));
-        let moved = changed.clone().find(|one| is_moved(one) && best.is_none_or(|best| !is_moved(best)));
-        for Answer { variant, p, .. } in [Some(as_it_is), best, moved].into_iter().flatten() {
-            let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
-            let words = format!("overturns {when}: {}{limits}", variant.as_deref().unwrap_or_default());
-            tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
-        }
+    for Answer { variant, p, .. } in as_it_is.into_iter().chain(best) {
+        let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
+        let words = format!("overturns {when}: {}{limits}", variant.as_deref().unwrap_or_default());
+        tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
     }
-    let drawn = table.at_site.as_ref().and_then(|drawn| drawn.fragility.as_ref());
+    let drawn = detail.at_site.as_ref().and_then(|drawn| drawn.fragility.as_ref());
     if let Some(Fragility { over, overturning, .. }) = drawn {
         let (what, unit, _) = over.name_and_unit();
         let half = intensity(*over, overturning.theta.value.map(|theta| theta / unit));
@@ -89,8 +83,9 @@ fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
         row(too_far, p.p_failure, rates.failure_per_year),
         row(overturns, p.p_overturning, rates.overturning_per_year),
     ];
-    rows.extend(variants.iter().skip(1).map(|Answer { variant, p, rates, .. }| {
-        let name = format!("overturns: {}", variant.as_deref().unwrap_or_default());
+    rows.extend(variants.iter().skip(1).map(|Answer { variant, object: changed, p, rates, .. }| {
+        let size = if changed.size() == object.size() { "" } else { &format!(" ({})", changed.size()) };
+        let name = format!("overturns: {}{size}", variant.as_deref().unwrap_or_default());
         row(name, p.p_overturning, rates.overturning_per_year)
     }));
     Table::new(&["", when, "95 % limits", "rate a year"], rows)

@@ -19,7 +19,7 @@ impl Document {
         lines.push(of_title.as_ref().unwrap_or(&first).trim_end_matches('.').to_string());
         lines.extend(self.gaps.iter().map(|gaps| words(gaps)));
         lines.extend(self.tables.first().map(|table| table.text(out)));
-        for table in self.tables.iter().skip(1) {
+        for table in self.overview.iter().chain(self.tables.iter().skip(1)) {
             lines.extend([words(&table.caption), table.text(None)]);
         }
         lines.extend(lead);

@@ -67,14 +67,19 @@ fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
     Some(Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption))
 }
 
-/// How likely each object of a list overturns, the worst first; those on floors with their floor.
+/// How likely each object of a list overturns, the worst first.
 pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let answers: Vec<&&Answer> = answers.iter().filter(|answer| answer.is_answered()).collect();
     let drawn = &answers[..answers.len().min(ROWS)];
     let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
     let rows = drawn.iter().map(|answer| {
         let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
-        let (name, p) = (answer.object.name_and_floor(), answer.p.p_overturning);
+        let (name, p) = (answer.object.called(), answer.p.p_overturning);
+        if !answer.alternatives.is_empty() {
+            let of_files = answer.alternatives.iter().enumerate();
+            let values = of_files.map(|(at, one)| (one.p, Ink::Data(at), &*one.file)).collect();
+            return ProbabilityRow { name, values, words: String::new() };
+        }
         let Some(before) = &answer.before else {
             return ProbabilityRow::new(&name, Ink::Step(band), bands[band], p);
         };
@@ -83,8 +88,9 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
         ProbabilityRow { name, values, words }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
-    let all = counted(answers.len(), "object");
-    let caption = format!("Probability of overturning {when} with 95 % limits: {} of {all}.", rows.len());
+    let others = answers.len() - rows.len();
+    let others = if others > 0 { format!("; {others} further rows are in the table") } else { String::new() };
+    let caption = format!("Probability of overturning {when} with 95 % limits{others}.");
     let panel = (!rows.is_empty()).then(|| probabilities("", when, &rows, target));
     let title = "How likely each object is to overturn";
     Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
@@ -271,17 +277,17 @@ fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
 }
 
 /// A row of a panel of probabilities.
-struct ProbabilityRow {
+struct ProbabilityRow<'a> {
     name: String,
     /// One below the other, each in a colour that the legend names.
-    values: Vec<(Interval<Option<f64>>, Ink, &'static str)>,
+    values: Vec<(Interval<Option<f64>>, Ink, &'a str)>,
     /// At the right edge.
     words: String,
 }
 
-impl ProbabilityRow {
+impl<'a> ProbabilityRow<'a> {
     /// A row of one probability, with its value at its end.
-    fn new(name: &str, ink: Ink, label: &'static str, p: Interval<Option<f64>>) -> ProbabilityRow {
+    fn new(name: &str, ink: Ink, label: &'a str, p: Interval<Option<f64>>) -> ProbabilityRow<'a> {
         ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words: PERCENT.value(p) }
     }
 }

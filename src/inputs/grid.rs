@@ -20,6 +20,9 @@ use super::workbook::{self, Sheet};
 use crate::number::{counted, rounded};
 use crate::source;
 
+/// The heading of the column of sections.
+pub const SECTION: &str = "Section";
+
 /// Numbers below this stand for what is not known.
 const UNKNOWN: f64 = -99.0;
 
@@ -118,7 +121,7 @@ impl Grid {
         grid.repeated = repeated.iter().map(|(line, at)| (*line, moved(*at))).collect();
         grid.has_headings = has_headings;
         grid.headings =
-            parts.into_iter().flatten().chain(has_sections.then(|| Heading::new("Section"))).collect();
+            parts.into_iter().flatten().chain(has_sections.then(|| Heading::new(SECTION))).collect();
         grid.take_units();
         let mut evidence: Vec<Evidence> = grid.headings.iter().map(Evidence::under).collect();
         for row in &grid.rows {

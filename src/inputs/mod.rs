@@ -48,7 +48,7 @@ pub use about::About;
 pub use decode::decode;
 pub use error::{InputError, Result};
 pub use floors::Building;
-pub use grid::Grid;
+pub use grid::{Grid, SECTION};
 pub use heading::Heading;
 pub use numbers::plain_number;
 pub use reader::{Reader, Rename};

@@ -134,6 +134,43 @@ fn a_list_is_answered_and_counted_as_its_objects_are() {
     assert!(near(number(cabinet, "overturning_per_year"), same, 1e-9));
 }
 
+/// By tag, else by name and size, and never by line; under another hazard nothing has changed.
+#[test]
+fn the_same_object_is_found_in_two_lists() {
+    let row = |line: &str| format!("Ref,Item,W (mm),D (mm),H (mm)\n{line}").replace('|', "\n");
+    let books = "A-2,Books,900,300,2000|A-3,Books,900,400,2000|A-4,Books,900,500,2000";
+    let all = row(&format!("A-1,Fridge,700,700,2000|{books}"));
+    let wider = row(&books.replace(",300", ",350"));
+    let no_tags =
+        |list: &str| list.replace("A-1", "").replace("A-2", "").replace("A-3", "").replace("A-4", "");
+    let folder = folder(&[
+        ("a.csv", &*all),
+        ("b.csv", &row(books)),
+        ("c.csv", &wider),
+        ("d.csv", &no_tags(&all)),
+        ("f.csv", &no_tags(&row(books))),
+    ]);
+    let here = folder.path();
+    let sa = concat!(env!("CARGO_MANIFEST_DIR"), "/data/hazard_sa.csv");
+    for list in ["a", "b", "c", "d", "f"] {
+        succeed(here, &format!("evaluate --structures {list}.csv {HAZARD} --out {list}.parquet"));
+    }
+    succeed(here, &format!("evaluate --structures a.csv {HAZARD},{sa} --out e.parquet"));
+    let cases = [
+        ("a,b", ["0 of 3 objects changed", "Only before: Fridge."]),
+        ("b,c", ["1 of 3 objects changed", "0.30 × 2.00 m → 0.90 × 0.35 × 2.00 m"]),
+        ("d,f", ["0 of 3 objects changed", "Only before: Fridge."]),
+        ("a,e", ["4 objects: how likely to overturn, 2 alternatives", "e.parquet: overturns in 50 years"]),
+    ];
+    for (files, told) in cases {
+        let files = files.split(',').map(|file| format!("{file}.parquet")).collect::<Vec<_>>().join(",");
+        succeed(here, &format!("report --in {files} --out page.html"));
+        let page = std::fs::read_to_string(here.join("page.html")).unwrap().replace('\u{a0}', " ");
+        assert!(told.iter().all(|told| page.contains(told)), "{files}: {told:?}");
+        assert_eq!(page.contains("changed"), !page.contains("alternatives"), "{files}");
+    }
+}
+
 #[test]
 fn what_a_list_says_in_words_of_its_own_stays_and_what_is_not_understood_is_told() {
     let list = "name,model,Value,width,height,storey\na,X-1,80,0.5,2,G\nb,,90,0.6,2,2.5\n";

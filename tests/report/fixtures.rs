@@ -1,7 +1,7 @@
 //! Answers, responses, fits and traces of which the tests draw figures and pages.
 
 use rockfrag::answer::{
-    Answer, AnswerTable, AtSite, FragilityColumns, ObjectColumns, RateColumns, StateColumns,
+    Answer, AnswerTable, AtSite, Detail, FragilityColumns, ObjectColumns, RateColumns, StateColumns,
     UncertaintyColumns,
 };
 use rockfrag::chart::Figure;
@@ -101,7 +101,8 @@ pub fn answers(count: usize, rate: f64) -> AnswerTable {
         ..rows.first().cloned().unwrap_or_default()
     };
     let variants = vec![variant("as it is", 0.02), variant("base of 0.60 m", 0.01)];
-    AnswerTable { rows, variants, ..AnswerTable::default() }
+    let details = vec![Detail { variants, ..Detail::default() }];
+    AnswerTable { rows, details, ..AnswerTable::default() }
 }
 
 /// What is drawn of a block at a site.
@@ -110,6 +111,13 @@ pub fn at_site() -> AtSite {
     let block = Object::block("block", 0.5, 2.0);
     let rocking = RockingObject::uncalibrated(&block, MotionKind::Recorded, 0.1).unwrap();
     AtSite::new(&Site::new(Hazard::over(Peak::Pga, curve)), &rocking).unwrap()
+}
+
+/// An object whose site is drawn.
+fn drawn() -> AnswerTable {
+    let mut table = answers(1, 1e-3);
+    table.details[0].at_site = Some(at_site());
+    table
 }
 
 /// The figure of answers.
@@ -208,7 +216,8 @@ pub fn figures(count: usize) -> Vec<Figure> {
         observed: 1,
     };
     let fragile = AnswerTable { rows: vec![fragile(count); count.min(9)], ..AnswerTable::default() };
-    let compared = compare::document(&before, &after).and_then(|document| document.main_figure().ok());
+    let compared =
+        compare::document(&[before.clone(), after]).and_then(|document| document.main_figure().ok());
     vec![
         motion(motions),
         demand(&groups),
@@ -221,7 +230,7 @@ pub fn figures(count: usize) -> Vec<Figure> {
         universality(&(0..count.min(10)).map(|k| cases((0.1 * k as f64).exp(), 200)).collect::<Vec<_>>()),
         hybrids(&tables, &groups),
         maps(&tables, &groups),
-        figure_of(&AnswerTable { at_site: Some(at_site()), ..answers(1, 1e-3) }),
+        figure_of(&drawn()),
         figure_of(&before),
         compared.unwrap_or_default(),
         figure_of(&fragile),

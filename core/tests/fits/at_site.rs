@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     Budget, GenericSites, GroundMotion, Hazard, HazardCurve, ListProbabilities, ListedObject, Lognormal,
     PeakHazard, PgvPgaRatio, Site, SiteRates, probability_in_years,
 };
-use rockfrag_core::object::{Changed, Object, Restitution, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{Changed, Object, Place, Restitution, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
 
@@ -205,6 +205,7 @@ fn a_change_is_one_thing_and_is_what_it_says() {
     };
     let losses: Vec<f64> = changes.iter().filter_map(loss).collect();
     assert!((losses[0] - 0.4).abs() < 1e-9 && (losses[1] + 0.4).abs() < 1e-9, "16 and 84 %");
-    let upstairs = &changes.iter().find(|changed| changed.object.place.level.is_some()).unwrap().object;
-    assert!(upstairs.changes().iter().any(|changed| changed.object.place.level.is_none()), "and down again");
+    assert!(changes.iter().all(|changed| changed.object.place.level.is_none()), "it stands on the ground");
+    let upstairs = object.at(&Place { period: Some(0.5), level: Some(0.6), ..Place::default() });
+    assert!(upstairs.changes().iter().any(|changed| changed.object.place.level.is_none()));
 }

@@ -9,6 +9,7 @@ use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use polars_core::prelude::DataFrame;
+use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site};
 use rockfrag_core::motion::Peaks;
@@ -23,9 +24,9 @@ use serde::{Deserialize, Serialize};
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{StructureArgs, named};
 use super::shared::reading_args::ReadingArgs;
-use crate::answer::{self, Answer, AnswerTable, AtSite, Question, assess, variants, variants_beside};
+use crate::answer::{self, Answer, AnswerTable, Detail, Question, assess, variants_beside};
 use crate::chart::{DPI, png, svg};
-use crate::document::{Document, workbook};
+use crate::document::{Document, PageArgs, sheet, workbook};
 use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
@@ -98,6 +99,9 @@ pub struct Evaluate {
     out: Option<PathBuf>,
     #[command(flatten)]
     #[serde(flatten)]
+    signed: PageArgs,
+    #[command(flatten)]
+    #[serde(flatten)]
     model: ModelArgs,
     #[command(flatten)]
     #[serde(flatten)]
@@ -167,7 +171,7 @@ impl Stage for Evaluate {
             let (rows, text) = table::evaluate(self, path, &mut reader, &models, context)?;
             reader.expect_used()?;
             context.tell(reader.warnings, reader.readings);
-            self.write(&rows, &text, context, &Document::default())?;
+            self.write(&rows, None, &text, context, &Document::default())?;
             return self.in_format(&rows, text);
         }
         let question = self.question(&mut reader, &models)?;
@@ -180,28 +184,31 @@ impl Stage for Evaluate {
         let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
-            let alone = objects.first().filter(|_| is_page && objects.len() == 1);
-            let most = if self.variants { WORST } else { usize::from(alone.is_some()) };
-            let worst = worst(&table.rows, &objects, most);
-            table.variants = worst.flat_map(|object| variants(object, site, *years, &models_of)).collect();
-            table.at_site = alone.and_then(|object| AtSite::new(site, &models_of(object).ok()?.0));
+            let most = if self.variants || is_page { WORST } else { 0 };
+            let worst = worst(&table.rows, &objects, most).collect::<Vec<_>>();
+            let details = worst.par_iter().map(|object| Detail::new(object, site, *years, &models_of));
+            table.details = details.filter(|detail| !detail.variants.is_empty()).collect();
             table.hazard = Some(site.hazard.clone());
         }
-        let document = Document::of_answers(&table);
+        let document = Document::of_answers(&table).signed(&self.signed);
         let text = document.text(self.out.as_deref());
         if let [beside, _] = &self.outputs()[..] {
-            context.write_batches(beside, &[answer::variant_table(&table.variants, &question)?], &text)?;
+            let variants: Vec<Answer> = table.details.iter().flat_map(|of| of.variants.clone()).collect();
+            context.write_batches(beside, &[answer::variant_table(&variants, &question)?], &text)?;
         }
-        let rows = match question {
-            Question::Curve { .. } => answer::points(&table.rows)?,
-            _ => all.clone(),
+        let (rows, sheet) = match question {
+            Question::Curve { .. } => (answer::points(&table.rows)?, None),
+            _ => (all.clone(), Some(sheet(&table.rows)?)),
         };
-        self.write(&[rows], &text, context, &document)?;
-        self.in_format(&[all], text)
+        self.write(&[rows], sheet.as_ref(), &text, context, &document)?;
+        match sheet {
+            Some(sheet) if self.format == Format::Csv => frame::show(&sheet, Format::Csv),
+            _ => self.in_format(&[all], text),
+        }
     }
 }
 
-/// The most objects whose variants are told.
+/// The most objects of which more is told.
 const WORST: usize = 10;
 
 impl Evaluate {
@@ -282,20 +289,23 @@ impl Evaluate {
         if self.format == Format::Text { Ok(text) } else { frame::show(&framed(rows)?, self.format) }
     }
 
-    /// Writes rows of one schema, or a page or the main figure of them, by how the name of the file ends.
+    /// Writes rows of one schema, the sheet, a page or the main figure of them, by how the name of the file
+    /// ends.
     fn write(
         &self,
         rows: &[RecordBatch],
+        sheet: Option<&DataFrame>,
         text: &str,
         context: &Context,
         document: &Document,
     ) -> anyhow::Result<()> {
         let Some(out) = self.outputs().pop() else { return Ok(()) };
+        let sheet = || sheet.map_or_else(|| framed(rows), |sheet| Ok(sheet.clone()));
         let content = match &*ending(&out) {
             "parquet" => return context.write_batches(&out, rows, text),
-            "csv" => frame::show(&framed(rows)?, Format::Csv)?.into_bytes(),
+            "csv" => frame::show(&sheet()?, Format::Csv)?.into_bytes(),
             "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
-            "xlsx" => workbook(&framed(rows)?)?,
+            "xlsx" => workbook(&sheet()?)?,
             "html" => document.html()?.into_bytes(),
             "svg" => svg(&document.main_figure()?).into_bytes(),
             _ => png(&svg(&document.main_figure()?), DPI)?,

@@ -10,9 +10,8 @@ use clap::ValueHint::{AnyPath, FilePath};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::chart::text::literal;
 use crate::chart::{DPI, Figure, png, svg};
-use crate::document::Document;
+use crate::document::PageArgs;
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -26,22 +25,17 @@ use tables::Tables;
 #[command(after_help = "rockfrag report --in out --title \"Server room\" \
     --author \"A. Engineer\" --out report.html")]
 pub struct Report {
-    /// Folder or files of other commands; two evaluations of the same objects are before and after
+    /// Folder or files of other commands; evaluations of the same objects are
+    /// before and after, or under different hazards alternatives
     #[arg(long = "in", id = "in", value_name = "DIR|FILE,...", value_hint = AnyPath, default_value = ".")]
     #[serde(rename = "in")]
     input: Vec<PathBuf>,
     /// Page to write; its figures go into a folder of its name [default: report.html in DIR or beside FILE]
     #[arg(long, value_name = "FILE", value_hint = FilePath)]
     out: Option<PathBuf>,
-    /// Title of the page [default: from what it shows]
-    #[arg(long, value_name = "TEXT")]
-    title: Option<String>,
-    /// Author, below the title
-    #[arg(long, value_name = "TEXT")]
-    author: Option<String>,
-    /// Date, below the title
-    #[arg(long, value_name = "TEXT")]
-    date: Option<String>,
+    #[command(flatten)]
+    #[serde(flatten)]
+    signed: PageArgs,
 }
 
 impl Report {
@@ -83,10 +77,7 @@ impl Stage for Report {
         let left_out: String = tables.left_out.iter().map(|note| format!("{note}\n")).collect();
         let summary = format!("a page, {}\n{left_out}", counted(figures.len(), "figure"));
         figures.par_iter().try_for_each(|figure| write(figure, &folder.join(&figure.name), context))?;
-        let byline = [&self.author, &self.date].into_iter().flatten().map(|text| literal(text));
-        let byline = byline.collect::<Vec<_>>().join(", ");
-        let title = self.title.as_ref().map_or(whole.title, |title| literal(title));
-        context.write_file(&page, Document { title, byline, ..whole }.html()?.as_bytes())?;
+        context.write_file(&page, whole.signed(&self.signed).html()?.as_bytes())?;
         Ok(summary)
     }
 }

@@ -53,6 +53,10 @@ ida: Each motion is scaled until it overturns the structure; these intensities a
 validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
 evaluate: Probabilities are those of the model; annual rates integrate them over the hazard of the site.";
 
+/// What two words mean.
+const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
+                      velocity after an impact over that before.";
+
 /// The page of all tables, and all their figures, of which the page shows some.
 pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let others = figures(tables)?;
@@ -150,11 +154,8 @@ fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Fi
 /// of responses.
 fn head(tables: &Tables) -> Document {
     let Tables { answers, compared, traces, groups, .. } = tables;
-    let before_and_after = match &answers[..] {
-        [before, after] if tables.are_files => compare::document(before, after),
-        _ => None,
-    };
-    let mut head = match before_and_after {
+    let compared_answers = if tables.are_files { compare::document(answers) } else { None };
+    let mut head = match compared_answers {
         Some(document) => document,
         None if !answers.is_empty() => Document::of_answers(&AnswerTable::joined(answers)),
         None if !compared.is_empty() => Document {
@@ -165,6 +166,7 @@ fn head(tables: &Tables) -> Document {
                 sentences.map(|text| literal(&text.replace(":\n", ": ").replace("\n  ", "; "))).collect()
             }),
             tables: vec![published_planes(compared)],
+            facts: vec![ANGLES.to_string()],
             ..Document::default()
         },
         None if !traces.is_empty() => return response::document(traces),
@@ -174,6 +176,7 @@ fn head(tables: &Tables) -> Document {
                 false => "What rocks and what overturns".to_string(),
             },
             lead: overturned(groups).into_iter().collect(),
+            facts: groups.first().map(|_| ANGLES.to_string()).into_iter().collect(),
             ..Document::default()
         },
     };
