@@ -3,12 +3,13 @@
 OpenQuake's own reader and fragility functions give the probabilities, which must equal those of `evaluate`,
 averaged over PGV/PGA, to 1e-5 at 20 levels of PGA and of PGV that any motion has, and be 0 below uplift. At
 each of 8 levels pelicun draws 100,000 capacities; the shares of the damage states must equal our
-probabilities within five standard errors. Needs openquake.engine or pelicun (scripts/check_exports.sh makes a
-place for each).
+probabilities within five standard errors. All this on the ground and, falling both ways, on a roof. Needs
+openquake.engine or pelicun (scripts/check_exports.sh makes a place for each).
 """
 
 import csv
 import functools
+import itertools
 import json
 import math
 import pathlib
@@ -21,27 +22,27 @@ import numpy as np
 import pandas as pd
 from common import call
 
-ALPHA = 0.20
-UPLIFT_G, SAMPLES, UNITS = math.tan(ALPHA), 100_000, {"PGA": "g", "PGV": "mps"}
+ALPHA, SAMPLES, UNITS = 0.20, 100_000, {"PGA": "g", "PGV": "mps"}
+GROUND = [f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"]
+ROOF = ["--width=0.5", "--depth=0.4", "--height=1.9", "--period=0.6", "--level=1"]
 rockfrag, program = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
-structure = f"--structure=name=equipment,p=2.5,alpha={ALPHA},eta=0.92"
 run = functools.partial(call, rockfrag)
 
 
-def reached(im, intensity):
+def reached(place, im, intensity):
     """The probability of reaching LS1, LS2 and LS3 at this PGA (g) or PGV (m/s)."""
-    (row,) = csv.DictReader(run("evaluate", structure, f"--{im}={intensity!r}", "--format=csv").splitlines())
+    (row,) = csv.DictReader(run("evaluate", *place, f"--{im}={intensity!r}", "--format=csv").splitlines())
     rocking = 1 - float(row["p_nr"])
     return [rocking, float(row["p_f"] or 0), rocking * float(row["p_ro"] or 0)]
 
 
-def openquake(im, folder):
-    """The largest difference at 20 levels and, of PGA, two intensities below uplift."""
+def openquake(place, im, folder):
+    """The largest difference at 20 levels and two intensities below uplift."""
     from openquake.hazardlib import nrml
     from openquake.risklib import read_nrml  # noqa: F401, registers the reader of fragility models
 
     file = folder / f"{im}.xml"
-    run("export", structure, "--to=openquake", f"--over={im}", f"--out={file}")
+    run("export", *place, "--to=openquake", f"--over={im}", f"--out={file}", "--force")
     model = nrml.to_python(str(file))
     ((imt, _), functions), = model.items()
     assert imt == im.upper(), imt
@@ -49,12 +50,12 @@ def openquake(im, folder):
     unit, most = (1, 4.4) if im == "pga" else (100, 4.9)
     levels = np.array(re.search("<imls[^>]*>([^<]*)<", file.read_text())[1].split(), dtype=float) / unit
     levels = levels[levels < most]
-    below = [0.5 * UPLIFT_G, 0.99 * UPLIFT_G] if im == "pga" else []
+    below = [0.5 * levels[0], 0.99 * levels[0]]
     for intensity in [*below, *levels[np.linspace(1, len(levels) - 1, 20).astype(int)]]:
-        expected = dict(zip(["LS1", "LS2", "LS3"], reached(im, float(intensity))))
+        expected = dict(zip(["LS1", "LS2", "LS3"], reached(place, im, float(intensity))))
         for function in functions.build(model.limitStates):
             theirs = float(function(np.array([unit * intensity]))[0])
-            if im == "pga" and intensity < UPLIFT_G and theirs != 0:
+            if intensity < levels[0] and theirs != 0:
                 sys.exit(f"{file.name}: {function.limit_state} is {theirs} below uplift")
             difference = max(difference, abs(theirs - expected[function.limit_state]))
     if difference > 1e-5:
@@ -82,10 +83,10 @@ def theirs(table, component, peak, intensity):
     return [float(shares.get(str(state), shares.get(state, 0.0))) for state in range(4)]
 
 
-def pelicun(im, folder):
+def pelicun(place, im, folder):
     """The largest difference in standard errors."""
     table = folder / f"{im}.csv"
-    run("export", structure, "--to=pelicun", f"--over={im}", f"--out={table}")
+    run("export", *place, "--to=pelicun", f"--over={im}", f"--out={table}", "--force")
     component = next(name for name in json.loads(table.with_suffix(".json").read_text()) if name[0] != "_")
     (row,) = csv.DictReader(table.read_text().splitlines())
     levels = [float(level) for level in row["LS2-Theta_0"].split("|")[0].split(",")]
@@ -93,7 +94,7 @@ def pelicun(im, folder):
     for im4 in [0.9, 1.05, 1.2, 1.4, 2.0, 3.0, 4.0, 6.0]:
         # Motions have some 1 m/s for each g.
         intensity = min(levels, key=lambda level: abs(level - im4 * math.tan(ALPHA)))
-        states = [1.0, *reached(im, intensity), 0.0]
+        states = [1.0, *reached(place, im, intensity), 0.0]
         ours = [here - further for here, further in zip(states, states[1:])]
         shares = theirs(table, component, im.upper(), intensity)
         for state, (share, p) in enumerate(zip(shares, ours)):
@@ -106,5 +107,6 @@ def pelicun(im, folder):
 
 warnings.simplefilter("ignore")
 with tempfile.TemporaryDirectory() as scratch:
-    for peak in ("pga", "pgv"):
-        print(program, peak, {"openquake": openquake, "pelicun": pelicun}[program](peak, pathlib.Path(scratch)))
+    for place, peak in itertools.product((GROUND, ROOF), UNITS):
+        check = {"openquake": openquake, "pelicun": pelicun}[program]
+        print(program, peak, check(place, peak.lower(), pathlib.Path(scratch)))

@@ -25,8 +25,8 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// Writes the rows: rocking has a PGA that is known, uplift; else they have tables of their cumulative
-/// distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
+/// Writes the rows: on the ground PGA alone decides on rocking, from uplift on; else they have tables of their
+/// cumulative distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut names = COMMON.map(str::to_string).to_vec();
@@ -40,12 +40,9 @@ pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
         // of two.
         let mut row = [&function.id, "0", name, unit_name, "0", "1"].map(str::to_string).to_vec();
         for state in LimitState::VARIANTS {
-            let (family, theta) = match (function.peak, state) {
-                // PGA alone decides on uplift.
-                (Peak::Pga, LimitState::Rocking) => {
-                    ("deterministic", (function.levels[0] / unit).to_string())
-                }
-                _ => ("multilinear_CDF", cumulative_distribution(function, *state, unit)),
+            let (family, theta) = match 1.0 - function.probabilities[0].get(*state) <= LEAST_RISE {
+                true => ("deterministic", (function.levels[0] / unit).to_string()),
+                false => ("multilinear_CDF", cumulative_distribution(function, *state, unit)),
             };
             row.extend([family, &theta, "", ""].map(str::to_string));
         }

@@ -10,10 +10,12 @@ use rockfrag_core::object::{Object, Place, RockingObject};
 use rockfrag_core::plausibility::MAGNITUDES;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
+use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::ModelArgs;
-use super::shared::objects::{StructureArgs, named, on_ground};
+use super::shared::objects::{StructureArgs, named};
+use crate::answer::ObjectColumns;
 use crate::export::{FragilityModel, Function, GAP, discrete, distinct_ids, metadata, parameters};
 use crate::inputs::Reader;
 use crate::number;
@@ -26,7 +28,8 @@ use crate::pipeline::paths::Read;
 #[derive(Debug, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[command(after_help = "rockfrag export --width 0.5 --height 1.9 --to openquake --out cabinet.xml\n\
-    rockfrag export --structures objects.csv --to pelicun --over pga --fits fits --suite csgm")]
+    rockfrag export --structures objects.csv --to pelicun --over pga --fits fits --suite csgm\n\
+    rockfrag export --width 0.5 --height 1.9 --period 0.6 --level 1 --to openquake --over pgv")]
 pub struct Export {
     /// openquake (NRML) or pelicun (CSV, and JSON beside it)
     #[arg(long, value_name = "PROGRAM")]
@@ -46,6 +49,9 @@ pub struct Export {
     #[command(flatten)]
     #[serde(flatten)]
     structures: StructureArgs,
+    #[arg(skip)]
+    #[serde(flatten)]
+    place: Place,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -129,9 +135,14 @@ impl Stage for Export {
 }
 
 impl Export {
+    /// The objects that have an answer, one or more.
     fn objects(&self, reader: &mut Reader) -> anyhow::Result<Vec<Object>> {
-        let objects = self.structures.objects(&Place::default(), reader)?;
-        objects.iter().try_for_each(|object| on_ground(object).map(|_| ()))?;
+        let all = self.structures.objects(&self.place, reader)?;
+        let (objects, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|of| of.sides().is_ok());
+        if let ([], [other, ..]) = (&objects[..], &others[..]) {
+            other.sides().map_err(|reason| named(other, &reason))?;
+        }
+        others.into_iter().for_each(|other| reader.warnings.add(Warning::NoAnswer, other.name));
         Ok(objects)
     }
 
@@ -171,14 +182,16 @@ impl Export {
             probabilities.push(most);
         }
         let magnitude = self.magnitude.map_or(String::new(), |mw| format!(", magnitude {mw}"));
+        let weaker = &rocking.directions[0];
         let directions = if rocking.directions.len() > 1 { " in both directions" } else { "" };
         Ok(Function {
             id: format!("{id}_{peak}"),
             peak,
             description: format!(
-                "{}{directions}{magnitude}, by {}",
+                "{}{directions}, {}{magnitude}, by {}",
                 object.name,
-                rocking.directions[0].model.description()
+                ObjectColumns::new(object, Some(weaker)).place_in_building(),
+                weaker.model.description()
             ),
             probabilities,
             levels,

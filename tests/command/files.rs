@@ -100,11 +100,6 @@ fn a_view_is_written_again_if_it_names_rockfrag_or_a_run_names_it() {
     fail(folder.path(), &format!("{} --force", evaluate("folder.csv")), 2, &["folder.csv"]);
     let listed = "evaluate --structures a.xlsx#rockfrag --pga 0.4 --pgv 0.5 --out a.xlsx --force";
     fail(folder.path(), listed, 2, &["a.xlsx", "is read"]);
-    for (to, out) in [("openquake", "e.xml"), ("pelicun", "e.csv")] {
-        let export = format!("export --to {to} {BLOCK} --out {out}");
-        succeed(folder.path(), &export);
-        fail(folder.path(), &export, 1, &["--force"]);
-    }
     for _ in 0..2 {
         assert_eq!(ran(&succeed(folder.path(), "run").1), ["evaluate"]);
     }

@@ -120,7 +120,7 @@ fn a_pipeline_of_a_list_goes_on_past_what_does_not_rock_on_the_ground() {
 fn names_may_be_long() {
     let name = "n".repeat(65_536);
     let folder = folder(&[("list.csv", &format!("name,width,height\n{name},0.4,2.0\nB,0.5,2.0\n"))]);
-    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[9.0; 300], &[0.1; 300]]);
+    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[9.0; 300], &[0.1; 300], &[3.0; 20]]);
     for call in [
         "evaluate --structures list.csv --pga 0.6 --pgv 0.8",
         "simulate --structures list.csv",
@@ -130,6 +130,12 @@ fn names_may_be_long() {
     ] {
         assert!(succeed(folder.path(), call).0.len() < 100_000, "{call}");
     }
+    let page = std::fs::read_to_string(folder.path().join("report.html")).unwrap();
+    let of_b = page.split("data-head=\"B\">").map(|cell| cell.split('<').next().unwrap());
+    let of_b: Vec<&str> = of_b.skip(1).collect();
+    let demand = number(&objects(folder.path(), "responses.parquet")[5], "edp");
+    assert_eq!(of_b[..2], ["overturns", "does not rock"]);
+    assert!(near(of_b[2].parse().unwrap(), demand, 0.05), "{of_b:?}");
     // A figure with the whole name takes minutes to draw.
     for figure in std::fs::read_dir(folder.path().join("report")).unwrap().flatten() {
         let is_drawn = figure.path().extension().is_some_and(|ending| ending == "svg");

@@ -108,15 +108,16 @@ fn shares_count_cases_and_events() {
 fn the_page_is_static_and_escapes_what_it_holds() {
     let row = ["<script>alert(1)</script>", "2 *P*_{ro}", "none"].map(str::to_string);
     let table = Table::new(&["a", "b", "c"], vec![row.into()]);
-    let sections = vec![Document { tables: vec![table.clone()], ..Default::default() }];
+    let response = Document { figures: Vec::new(), ..response::document(&[traced(100)]) };
+    let sections = vec![Document { tables: vec![table.clone()], ..Default::default() }, response];
     let (title, figures) = ("{sentence} <b>".to_string(), figures(3));
     let panels: usize = figures.iter().map(|figure| figure.panels.len()).sum();
     let page = Document { title, tables: vec![table], figures, sections, ..Default::default() };
     let page = page.html().unwrap();
-    assert!(!["<script", "<b>", "http"].iter().any(|code| page.contains(code)), "no code, no links");
+    let code = ["<script", "<b>", "http", "<1>", "<i>me</i>"];
+    assert!(!code.iter().any(|code| page.contains(code)) && page.contains("Motion m&lt;1&gt;: fra*me*2"));
     let [frames, pictures] = ["<figure>", "role=\"img\""].map(|part| page.matches(part).count());
     assert_eq!([frames, pictures], [panels + 1; 2], "each panel is a picture, and what moves");
-    assert!(panels > 30);
     assert_eq!(page.matches("<td class=\"number\" data-head=\"b\">2 <i>P</i><sub>ro</sub></td>").count(), 2);
     assert_eq!(page.matches("<td class=\"short\" data-head=\"c\">none</td>").count(), 2);
     assert!(page.contains("<h1>{sentence} &lt;b&gt;</h1>") && page.contains("var(--data1)"));
@@ -132,9 +133,9 @@ fn numbers_are_as_short_as_a_reader_needs() {
     assert_eq!([9.66, 1449.0, 27_290.0].map(number::period), ["9.7", "1,400", "27,000"]);
     let of = Interval { value: Some(0.0069), low: Some(0.005), high: Some(0.00984) };
     assert_eq!(number::PERCENT.both(of, "95 % limits "), "0.69 % (95 % limits 0.50 to 0.98 %)");
-    assert_eq!([-1234.5, -123.0].map(|x| number::fixed(x, 1)), ["-1,234.5", "-123.0"]);
     // What rounds to zero has no sign.
-    assert_eq!([-0.001, -0.0, -0.006].map(|x| number::fixed(x, 2)), ["0.00", "0.00", "-0.01"]);
+    let fixed = [-1234.5, -0.001, -0.0, -0.006].map(|x| number::fixed(x, 2));
+    assert_eq!(fixed, ["-1,234.50", "0.00", "0.00", "-0.01"]);
 }
 
 const RUN: &str = "\
@@ -153,15 +154,12 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let at = |path: &str| folder.path().join(path);
     let call = |arguments: &str| {
         let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_rockfrag"));
-        let output = command.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap();
-        (output.status.success(), String::from_utf8(output.stderr).unwrap())
+        command.current_dir(folder.path()).args(arguments.split(' ')).output().unwrap().status.success()
     };
     std::fs::write(at("pipeline.yaml"), RUN).unwrap();
-    assert!(call("run").0);
+    assert!(call("run"));
     let first = std::fs::read(at("out/report.html")).unwrap();
-    let (is_done, told) = call("run");
-    let is_kept = |stage: &str| told.contains(&format!("{stage:<20} up to date"));
-    assert!(is_done && is_kept("fit-pro") && !is_kept("report"), "{told}");
+    assert!(call("run"));
     assert!(std::fs::read(at("out/report.html")).unwrap() == first, "the same page has the same bytes");
     let endings = |ending: &str| {
         let files = std::fs::read_dir(at("out/report")).unwrap().map(|file| file.unwrap().path());
@@ -174,15 +172,13 @@ fn a_run_writes_a_page_and_each_figure_with_its_numbers() {
     let dots = rows.filter(|row| row.as_ref().unwrap()[16] == *"dot").count();
     let planes = std::fs::read_to_string(at("out/report/planes.svg")).unwrap();
     assert!(dots > 0 && planes.matches("h0").count() == dots + 2, "each row, two in the legend");
-    assert!(call("report --in out --title Again --force").0);
-    assert!(std::fs::read_to_string(at("out/report.html")).unwrap().contains("<h1>Again</h1>"));
     // Responses of another structure under the same names: their fits are left out, and the page says so.
     let simulate = "simulate --in out/motions.parquet --out out/responses.parquet";
-    assert!(call(&format!("{simulate} --structure name=a,p=2,alpha=0.3,eta=0.9")).0);
-    assert!(call("report --in out --title Other --force").0);
+    assert!(call(&format!("{simulate} --structure name=a,p=2,alpha=0.3,eta=0.9")));
+    assert!(call("report --in out --title Other --force"));
     let page = std::fs::read_to_string(at("out/report.html")).unwrap();
-    assert!(page.contains("pro.parquet is not shown") && page.contains("pex.parquet is not shown"));
-    assert!(!call("report --in empty").0);
+    let told = ["<h1>Other</h1>", "pro.parquet is not shown", "pex.parquet is not shown"];
+    assert!(told.iter().all(|words| page.contains(words)) && !call("report --in empty"));
 }
 
 #[test]
@@ -243,14 +239,6 @@ fn the_expected_number_is_that_of_each_file() {
     };
     let alone = expected(&one).remove(0);
     assert_eq!(expected(&AnswerTable::joined(&[one, other])), [alone.clone(), alone]);
-}
-
-#[test]
-fn names_of_responses_are_no_markup() {
-    let page = response::document(&[traced(100)]).html().unwrap();
-    assert!(page.contains("fra*me*2") && page.contains("m&lt;1&gt;") && !page.contains("<i>me</i>"));
-    let words = svg(&response::figure(&traced(100), 0));
-    assert!(words.contains("<title>Motion m&lt;1&gt;: fra*me*2</title>"));
 }
 
 #[test]

@@ -6,11 +6,12 @@ use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
 use rockfrag_core::studies::comparison::Comparison;
+use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warnings;
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::tables::{Kind, Tables};
+use super::tables::{Item, Kind, Tables};
 use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
@@ -20,8 +21,12 @@ use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
 use crate::stages::shared::fits::CurveLine;
-use crate::table::responses::CapacityFitRow;
+use crate::table::responses::{CapacityFitRow, OutcomeWord, ResponseRow};
+use crate::table::rows;
 
+/// The most motions and structures of a table of demand.
+const MOST_MOTIONS: usize = 30;
+const MOST_STRUCTURES: usize = 8;
 /// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
@@ -78,6 +83,7 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
     let method = METHOD.lines().filter_map(|line| line.split_once(": "));
     let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
+    head.tables.extend(demands(tables)?);
     let mut tests = tests(tables)?;
     if head.tables.is_empty() {
         head.tables.extend(tests.drain(..tests.len().min(1)));
@@ -260,6 +266,39 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
         rows.push(row);
     }
     Ok(Table::new(&heads, rows).explained("Motions that rock and overturn each structure, with 95 % limits"))
+}
+
+/// What came of each structure under each motion, a table for each file of few motions.
+fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
+    let structures = by(&tables.groups, |cases| &cases.structure.name);
+    let mut heads = ["motion", "PGA, g", "PGV, m/s"].map(str::to_string).to_vec();
+    heads.extend(structures.iter().map(|its| called(&its[0].structure)));
+    let mut all = Vec::new();
+    let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_MOTIONS * MOST_STRUCTURES;
+    for item in tables.of(Kind::Responses).filter(is_short) {
+        let responses: Vec<ResponseRow> = rows::read(&item.path)?;
+        let motions = by(&responses, |row| (&row.motion_id, row.pga_m_s2));
+        if motions.len() > MOST_MOTIONS || structures.len() > MOST_STRUCTURES {
+            continue;
+        }
+        let line = |its: &Vec<&ResponseRow>| {
+            let mut row = vec![literal(&number::name(&its[0].motion_id))];
+            row.extend([its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak)));
+            row.extend(structures.iter().map(|of| {
+                let response = its.iter().find(|row| row.structure == of[0].structure.name);
+                response.map_or(String::new(), |of| match of.outcome {
+                    OutcomeWord::NoRocking => "does not rock".to_string(),
+                    OutcomeWord::SafeRocking => of.edp.map_or(String::new(), |edp| TWO_DIGITS.one(edp)),
+                    OutcomeWord::Overturned => "overturns".to_string(),
+                })
+            }));
+            row
+        };
+        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*".to_string();
+        let (heads, rows) = (heads.clone(), motions.iter().map(line).collect());
+        all.push(Table { caption, heads, rows, ..Table::default() });
+    }
+    Ok(all)
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.

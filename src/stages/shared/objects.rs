@@ -24,10 +24,12 @@ use crate::stages::shared::reading_args::ListArgs;
 /// Adds the fields of an object to the options of a stage.
 pub fn with_fields(stage: Command) -> Command {
     let has = |option: &str| stage.get_arguments().any(|arg| arg.get_id() == option);
-    let (shape, place) = (has("structures"), has("pga"));
+    // Only what has limits takes standard deviations.
+    let (shape, place, has_limits) = (has("structures"), has("over"), has("years"));
     let of_shape = Field::OF_SHAPE.into_iter().filter(|_| shape).map(|word| (word, "Structure"));
     let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !Field::OF_SHAPE.contains(word));
-    let of_place = others.filter(|_| place).map(|word| (word, "Object"));
+    let of_place =
+        others.filter(|word| place && (has_limits || !word.ends_with("-sd"))).map(|word| (word, "Object"));
     stage.args(of_shape.chain(of_place).filter_map(|(word, heading)| {
         let of = word.parse::<Field>().ok()?;
         let Entry { symbol, help, .. } = of.entry();
@@ -148,7 +150,7 @@ impl StructureArgs {
 }
 
 /// Finds the structures of the directions of an object, which must stand on the ground.
-pub fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
+fn on_ground(object: &Object) -> anyhow::Result<Vec<Structure>> {
     let sides = object.sides().map_err(|reason| named(object, &reason))?;
     let problem = "on a floor: leave out level and period; floor-motions makes its motions";
     ensure!(!matches!(object.place.floor(), Ok(Some(_))), named(object, &problem));
