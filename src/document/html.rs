@@ -9,6 +9,9 @@ use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
+/// Columns that need small letters.
+const MANY: usize = 9;
+
 impl Document {
     /// # Errors
     /// If it has nothing to show.
@@ -118,7 +121,7 @@ fn write_table(table: &Table) -> Markup {
     html! {
         p class="caption" { (write(&table.caption)) }
         div class="scroll" tabindex="0" role="group" aria-label=(words(&table.caption)) {
-            table {
+            table class=[(columns.len() > MANY).then_some("many")] {
                 thead {
                     tr {
                         @for column in &columns { th scope="col" class=[class(column)] { (write(column.head)) } }

@@ -9,7 +9,7 @@ use crate::chart::text::literal;
 use crate::figures::answers;
 use crate::figures::common::by;
 use crate::inputs::SECTION;
-use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, listed, plain};
+use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, length, listed, plain};
 
 /// The most files whose expected numbers are shown, and objects that are named in a sentence.
 const FILES: usize = 3;
@@ -187,8 +187,9 @@ fn expected_number(some: &[&Answer]) -> String {
 type Cell = fn(&Answer) -> String;
 
 /// The columns behind the list's own; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 18] = [
+const COLUMNS: [(&str, Cell); 19] = [
     ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
+    ("centre of mass, m", |answer| answer.object.raised_centre_m().map_or(String::new(), length)),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
     ("place", |answer| answer.object.short_place()),
     ("file", |answer| literal(&answer.file)),

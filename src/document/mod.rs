@@ -141,7 +141,7 @@ impl Table {
 }
 
 /// Letters of a short cell.
-const SHORT: usize = 12;
+const SHORT: usize = 9;
 
 fn is_number(cell: &str) -> bool {
     cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')

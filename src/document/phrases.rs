@@ -35,6 +35,12 @@ impl ObjectColumns {
         }
     }
 
+    /// The height of the centre of mass where it is not half of its height.
+    pub fn raised_centre_m(&self) -> Option<f64> {
+        let half = 0.5 * self.height_m?;
+        self.centre_height_m.filter(|centre| (centre / half - 1.0).abs() > 1e-9)
+    }
+
     pub fn is_upstairs(&self) -> bool {
         self.floor_level.is_some()
     }
