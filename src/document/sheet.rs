@@ -16,7 +16,7 @@ enum Cells {
 }
 
 /// The columns; of those in the time of exposure, or under the motion, there is an @.
-const COLUMNS: [(&str, Cells); 15] = [
+const COLUMNS: [(&str, Cells); 14] = [
     ("width (m)", Cells::Numbers(|answer| answer.object.width_m)),
     ("depth (m)", Cells::Numbers(|answer| answer.object.depth_m)),
     ("height (m)", Cells::Numbers(|answer| answer.object.height_m)),
@@ -30,12 +30,10 @@ const COLUMNS: [(&str, Cells); 15] = [
     ("rocks too far @ (%)", Cells::Percent(|answer| answer.p.p_failure.value)),
     ("anchors, or a base of (m)", Cells::Texts(|answer| plain(&base(answer)).replace(" m", ""))),
     ("friction needed", Cells::Numbers(|answer| answer.object.friction_needed().map(two_digits))),
-    ("doubts", Cells::Texts(|answer| if answer.is_answered() { doubts(answer) } else { String::new() })),
-    (
-        "not assessed",
-        Cells::Texts(|answer| if answer.is_answered() { String::new() } else { doubts(answer) }),
-    ),
+    (NOTES, Cells::Texts(|answer| answer.uncertainty.warnings.clone().unwrap_or_default())),
 ];
+
+const NOTES: &str = "doubts, or why it is not assessed";
 
 /// A row an object, without columns in which nothing stands; results to two digits.
 pub fn sheet(rows: &[Answer]) -> anyhow::Result<DataFrame> {
@@ -77,11 +75,6 @@ fn texts(head: &str, rows: &[Answer], cell: &dyn Fn(&Answer) -> String) -> Colum
 
 fn plain(marked: &str) -> String {
     words(marked).replace('\u{a0}', " ")
-}
-
-/// Warnings, or why there is no answer.
-fn doubts(answer: &Answer) -> String {
-    answer.uncertainty.warnings.clone().unwrap_or_default()
 }
 
 fn overturning(answer: &Answer) -> Interval<Option<f64>> {
