@@ -26,7 +26,7 @@ const UNKNOWN: f64 = -99.0;
 /// Rows of cells under headings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
-    /// Comments, and lines above, below and between the rows.
+    /// Comments, lines above, below and between the rows, and the name of the sheet.
     pub notes: Vec<String>,
     /// Other lines that are no rows, and what they were taken for.
     others: Vec<String>,
@@ -67,8 +67,10 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            let Sheet { first_line, rows, repeated, source } = workbook::read(&bytes, sheet)?;
-            return Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated);
+            let Sheet { first_line, rows, repeated, source, name } = workbook::read(&bytes, sheet)?;
+            let mut grid = Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated)?;
+            grid.notes.push(name);
+            return Ok(grid);
         }
         let (rows, source) = separated::rows(&decode(&bytes)?)?;
         Grid::new(rows, source, &HashSet::new())

@@ -20,7 +20,7 @@ use crate::table::dictionary;
 pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>> {
     let read = reader.read(path).and_then(|grid| {
         expect_intensities(&grid)?;
-        Told::new(&grid)?.expect_same(&grid.headings)?;
+        Told::new(&grid, path)?.expect_same(&grid.headings)?;
         let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
         let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
         expect_understood(&grid, &meanings)?;

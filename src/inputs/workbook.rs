@@ -26,6 +26,7 @@ pub struct Sheet {
     /// Lines and columns of cells that are merged over rows.
     pub repeated: HashSet<(usize, usize)>,
     pub source: Source,
+    pub name: String,
 }
 
 /// Reads the sheet with this name, or the only visible one that has any cells.
@@ -57,7 +58,8 @@ fn find(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
             let (line, column) = rows.start().unwrap_or_default();
             let repeated = repeated.into_iter().map(|(row, at)| (row as usize + 1, (at - column) as usize));
             let source = if matches!(workbook, Sheets::Xlsx(_)) { Source::Xlsx } else { Source::Workbook };
-            Ok(Sheet { first_line: line as usize + 1, rows, repeated: repeated.collect(), source })
+            let (first_line, repeated, name) = (line as usize + 1, repeated.collect(), name.clone());
+            Ok(Sheet { first_line, rows, repeated, source, name })
         }
         [] if name.is_none() => Err(InputError::unexpected("an empty workbook", "a table")),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),

@@ -7,7 +7,7 @@ use rockfrag_core::hazard::{Hazard, PeakHazard};
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::{Warning, Warnings};
 
-use super::packed::{PGA_G, exported, rate, table};
+use super::packed::{PGA_G, exported, rate, table, xlsx};
 
 /// A curve as OpenQuake exports it, under a header.
 fn openquake(header: &str) -> String {
@@ -154,6 +154,11 @@ fn what_is_no_hazard_is_refused_for_its_reason() {
         table(&format!("{heading},level (g),AFE"), |a| format!("{cell},{a},{}", rate(a)))
     };
     let exported = |rest: &str| openquake(&format!("#,,,\"kind='mean', investigation_time=50.0{rest}\""));
+    let cells = [vec!["Ground motion (g)", "AFE"], vec!["0.1", "0.01"], vec!["0.4", "0.001"]];
+    for (sheet, named) in [("SA(0.2)", "SA(0.2 s)"), ("vertical", "horizontal")] {
+        let refusal = read(&[&xlsx(&[(sheet, &cells)])], "").unwrap_err().to_string();
+        assert!(refusal.contains(named), "{sheet}: {refusal}");
+    }
     let twice = "pga_g,pgv_m_s,annual_rate_of_occurrence\n0.5,0.6,0.002\n0.5,0.6,0.002\n";
     for (text, columns, named) in [
         ("pga_g,note\n", "", "found: \"pga_g\""),

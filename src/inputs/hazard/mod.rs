@@ -161,7 +161,7 @@ impl Found {
             return Err(InputError::unexpected(found, expected));
         }
         openquake::name_fields(&mut grid);
-        let mut told = Told::new(&grid)?;
+        let mut told = Told::new(&grid, path)?;
         if is_exported {
             grid = openquake::curve(&grid, &mut told)?;
         }
@@ -182,7 +182,7 @@ impl Found {
                 // Not the years of a return period.
                 grid.headings[at].unit = None;
             } else if !are_named {
-                column.measures = vec![told.measure(column.measure(), path)?];
+                column.measures = vec![told.measure(column.measure())?];
             }
             meanings[at] = Meaning::Known(column.meaning());
         }
@@ -201,14 +201,14 @@ impl Found {
         let imts: Vec<Imt> = named.clone().flatten().collect();
         let is_told = told.measures.iter().any(|told| imts.iter().any(|named| named.may_be(*told)));
         if let (Some(named), Some(told), false) = (imts.first(), told.measures.first(), is_told) {
-            let found = format!("{named} in a heading and {told} in a comment");
+            let found = format!("{named} in a heading and {told} in a comment or name");
             return Err(InputError::unexpected(found, "one of them"));
         }
         let are_unnamed = columns.iter().all(|column| column.statistic.is_none());
         let statistic = told.statistic.filter(|told| are_unnamed || *told == Statistic::Median);
         let (before, mut other) = (self.curves.len(), None);
         for (named, pair) in named.zip(&pairs) {
-            match told.measure(named, file)? {
+            match told.measure(named)? {
                 measure @ (Imt::Pga | Imt::Pgv | Imt::SA_1S) => {
                     let own = pair.iter().find_map(|at| columns[*at].statistic);
                     let of = (measure, own.or(statistic).unwrap_or(Statistic::Mean));

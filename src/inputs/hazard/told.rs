@@ -9,6 +9,7 @@ use rockfrag_core::units::Unit;
 use super::columns::{Frequency, Imt, Phrase, Statistic};
 use crate::inputs::words::means;
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
+use crate::source::split_sheet;
 
 #[derive(Debug, Default)]
 pub struct Told {
@@ -20,8 +21,8 @@ pub struct Told {
 }
 
 impl Told {
-    /// Reads comments, titles and remarks.
-    pub fn new(grid: &Grid) -> Result<Told> {
+    /// Reads comments, titles, remarks, and the names of the file and its sheet.
+    pub fn new(grid: &Grid, file: &Path) -> Result<Told> {
         let years = noted(grid, "investigation time").and_then(|years| years.parse().ok());
         let mut told = Told { years, ..Told::default() };
         for key in ["imt", "kind", "statistic", "component"] {
@@ -29,7 +30,9 @@ impl Told {
         }
         let remarks = (0..grid.headings.len()).filter(|at| means(&grid.headings[*at].name, "remark"));
         let remarks = remarks.flat_map(|at| grid.rows().map(move |row| grid.cell(row, at)));
-        let mut texts = grid.notes.iter().map(String::as_str).chain(remarks);
+        let (file, _) = split_sheet(file);
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        let mut texts = grid.notes.iter().map(String::as_str).chain(remarks).chain([&*name]);
         texts.try_for_each(|text| told.remark(text))?;
         Ok(told)
     }
@@ -122,15 +125,14 @@ impl Told {
         })
     }
 
-    /// The measure of a curve whose headings name this one, or none. The name of a file tells where all else
-    /// is silent; an acceleration of which nothing is said is PGA.
-    pub fn measure(&self, named: Option<Imt>, file: &Path) -> Result<Imt> {
-        let name = || file.file_stem().unwrap_or_default().to_string_lossy();
+    /// The measure of a curve whose headings name this one, or none; an acceleration of which nothing is said is
+    /// PGA.
+    pub fn measure(&self, named: Option<Imt>) -> Result<Imt> {
         match (named, &self.measures[..]) {
             (None, [imt]) => Ok(*imt),
             (Some(Imt::Sa), [imt]) if imt.may_be(Imt::Sa) => Ok(*imt),
             (Some(named), _) => Ok(named),
-            (None, []) => Ok(Phrase::new(&name()).measures.first().copied().unwrap_or(Imt::Pga)),
+            (None, []) => Ok(Imt::Pga),
             (None, [first, second, ..]) => {
                 let found = format!("{first} and {second} in comments");
                 Err(InputError::unexpected(found, "the measure in the heading, by --columns if need be"))
