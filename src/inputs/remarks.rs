@@ -20,7 +20,15 @@ pub fn is_on_floors(text: &str) -> bool {
     let is_one = matches!(Storey::parse(text), Some(Storey::Number(_) | Storey::Above(_)));
     let has_number =
         text.contains(|sign: char| sign.is_ascii_digit()) || words.split('-').any(floors::is_ordinal);
-    has("upper") || has("of-floors") && has_number || is_one && text.contains(char::is_alphabetic)
+    // 3F-201, 2/F
+    let is_floor = |word: &str| {
+        let letters = word.trim_start_matches(|sign: char| sign.is_ascii_digit());
+        letters.len() < word.len() && matches!(letters, "f" | "fl")
+    };
+    has("upper")
+        || (has("of-floors") || has("storeys")) && has_number
+        || is_one && text.contains(char::is_alphabetic)
+        || words.replace("-f", "f").split('-').any(is_floor)
 }
 
 /// The unit of lengths that a remark names, other than behind a number: all in mm.

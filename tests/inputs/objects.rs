@@ -148,6 +148,7 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,Qty (pairs)\na,0.5,2,2\n", "Qty (pairs)"),
         ("name,width,height,Location\na,0.5,2,3rd floor east\nb,0.5,2,hall\n", "3rd floor east"),
         ("name,width,height\nStorey 3 - laboratories\na,0.5,2\n", "Storey 3"),
+        ("name,width,height,Location\na,0.5,2,3F-201\nb,0.5,2,2/F\n", "3F-201"),
         ("name,width,height,Notes\na,0.5,2,bolted to slab\n", "bolted to slab"),
         ("name,width,height,Centre height\na,0.5,2,45%\n", "45%"),
         ("name,width,Ø,height\na,0.5,0.4,2\n", "diameter"),
