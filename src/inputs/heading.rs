@@ -7,6 +7,9 @@ use super::words::{are_known, joined, normal};
 /// The longest text that may say a unit: a search for one in every part of a long line would not end.
 const LONGEST: usize = 100;
 
+/// Signs before a factor.
+const TIMES: [char; 4] = ['x', 'X', '\u{d7}', '*'];
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
     pub text: String,
@@ -102,7 +105,7 @@ fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
         let inside = Some(text[start + 1..end].trim()).filter(|inside| inside.len() <= LONGEST);
         let bare = || text[..start].to_string() + " " + text.get(end + 1..).unwrap_or_default();
         match (inside.and_then(Unit::parse), inside.and_then(explained)) {
-            (Some(unit), _) => return Some((bare(), Some(unit))),
+            (Some(unit), _) => return Some((bare(), Some(unit).filter(|_| !is_factor(text.get(end + 1..))))),
             (None, Some(unit)) => explaining = explaining.or_else(|| Some((bare(), unit))),
             (None, None) => {}
         }
@@ -126,11 +129,17 @@ fn at_end(text: &str) -> Option<(String, Option<Unit>)> {
     });
     ends.into_iter().find_map(|(at, start)| {
         let end = text[start..].trim_matches(['(', ')', '[', ']', ' ']);
-        let is_told = end.contains('=') || end.starts_with(['x', 'X', '\u{d7}', '*']);
+        let is_told = end.contains('=') || end.starts_with(TIMES);
         let unit = Unit::parse(end.strip_prefix("in ").unwrap_or(end));
         let said = unit.map(Some).or_else(|| explained(end).filter(|_| is_told));
         Some((text[..at].to_string(), said?))
     })
+}
+
+/// Whether a text is a factor: ` x 10`.
+fn is_factor(text: Option<&str>) -> bool {
+    let text = text.unwrap_or_default().trim();
+    text.starts_with(TIMES) && text.ends_with(|sign: char| sign.is_ascii_digit())
 }
 
 /// What a text says of a unit: `g = 9.81 m/s2`, `gravity, 1g = 980.5 cm/s/s`, `in g`, `x10 m/s2`.
