@@ -137,7 +137,7 @@ fn points_and_commas_are_settled_by_the_whole_table() {
         "t\ta\n0.00\t999\n0.01\t1.029\n",
         "t\ta\n0,00\t999\n0,01\t1,029\n",
     ] {
-        assert!(matches!(last_column(text), Err(InputError::Unclear { .. })), "{text}");
+        assert!(matches!(last_column(text), Err(InputError::Cell { .. })), "{text}");
     }
 }
 
@@ -157,11 +157,6 @@ fn many_columns_and_long_lines_are_read() {
 #[test]
 fn the_unit_is_that_of_the_numbers() {
     for (text, name, unit) in [
-        ("acc (g = 9.81 m/s2)", "acc", "g"),
-        ("acc (gravity, 1g = 980.5 cm/s/s)", "acc", "g"),
-        ("acc (1 g = 9.81 m/s2)", "acc", "g"),
-        ("acc (m/s2; 1 g = 9.81 m/s2)", "acc", "m/s2"),
-        ("acc in g, 1 g = 9.81 m/s2", "acc", "g"),
         ("acc (g) NS", "acc-ns", "g"),
         ("acc (NS) (m/s2)", "acc-ns", "m/s2"),
         ("acc (NS) cm/s/s", "acc-ns", "cm/s2"),
@@ -175,6 +170,8 @@ fn the_unit_is_that_of_the_numbers() {
     }
     for text in [
         "acc (x10 m/s2)",
+        "acc (gravity, 1g = 980.5 cm/s/s)",
+        "acc in g, 1 g = 9.81 m/s2",
         "acc (0.1 g)",
         "acc (10^-2 m/s2)",
         "acc (9.81 m/s2)",
