@@ -20,7 +20,7 @@ const SIGNS: &str = "\u{b0}\u{b1}\u{b2}\u{b3}\u{b5}\u{b7}\u{bd}\u{d7}\u{d8}";
 /// lists in twenty encodings was mistaken.
 const TELLING: usize = 40;
 
-/// Decodes a text: its lines end in `\n`; typographic blanks, minus signs and wide letters become ASCII.
+/// Decodes a text; its lines end in `\n`.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
     let is_other = |(starts, _): &&(&[&[u8]], _)| starts.iter().any(|start| bytes.starts_with(start));
     if let Some((_, found)) = OTHERS.iter().find(is_other) {
@@ -28,24 +28,15 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
     }
     let (text, ..) = encoding(bytes)?.decode(bytes);
     match (text.trim_start().chars().next(), text.trim_end().chars().next_back()) {
-        (Some('<'), Some('>')) => return Err(InputError::NoTable { found: "a web page or XML" }),
-        (Some('{'), Some('}')) | (Some('['), Some(']')) => return Err(InputError::NoTable { found: "JSON" }),
+        (Some('<'), Some('>')) => {
+            return Err(InputError::NoTable { found: "XML: a web page, or OpenQuake's NRML" });
+        }
+        (Some('{'), Some('}')) | (Some('['), Some(']')) => {
+            return Err(InputError::NoTable { found: "JSON, as of a web service" });
+        }
         _ => {}
     }
-    let text = if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text };
-    Ok(if text.is_ascii() { text } else { Cow::Owned(text.chars().map(plain).collect()) })
-}
-
-/// A typographic blank, minus sign or wide letter in ASCII.
-pub(super) fn plain(sign: char) -> char {
-    match sign {
-        '\u{2212}' => '-',
-        '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{3000}' => ' ',
-        '\u{2019}' => '\'',
-        // Wide forms of ASCII.
-        '\u{ff01}'..='\u{ff5e}' => char::from((u32::from(sign) - 0xfee0) as u8),
-        _ => sign,
-    }
+    Ok(if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text })
 }
 
 /// Finds the encoding by a byte-order mark, by null bytes in every other place, by what is valid, else by

@@ -2,7 +2,7 @@
 
 use rockfrag_core::object::Place;
 
-use super::words::{is_one_of, joined, means, synonyms};
+use super::words::{is_one_of, joined, means, normal, synonyms};
 
 const STOREY_M: f64 = 3.5;
 /// Standard deviation of ln(period) of a building of a known type.
@@ -25,6 +25,7 @@ impl Storey {
     /// stands beside: `2-3`, `1.5`.
     pub fn parse(cell: &str) -> Option<Storey> {
         const BESIDE: &str = " .-_#():";
+        let cell = &*normal(cell);
         let names = [("ground", Storey::Ground), ("roof", Storey::Roof), ("basement", Storey::Basement)];
         if let Some((_, storey)) = names.into_iter().find(|(meaning, _)| means(cell, meaning)) {
             return Some(storey);

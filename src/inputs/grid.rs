@@ -203,14 +203,14 @@ impl Grid {
         let (cell, notation) = (self.cell(row, column), self.notations[column]);
         let has_sign = cell.ends_with('%');
         let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
-        let question = match notation.number(cell) {
+        let expected = match notation.number(cell) {
             Some(_) if notation.may_be_shares && !has_sign => PERCENT,
             Some(number) => return Ok(size * number),
-            None if notation.is_unclear(cell) => THOUSANDS,
-            None => return Err(self.refusal(row, column, "a number")),
+            // The table does not tell which sign is decimal.
+            None if is_number(cell) => THOUSANDS,
+            None => "a number",
         };
-        let (line, heading, found) = (self.lines[row], self.name_of(column), cell.to_string());
-        Err(InputError::Unclear { line, heading, found, question })
+        Err(self.refusal(row, column, expected))
     }
 
     pub fn numbers(&self, column: usize) -> Result<Vec<f64>> {
@@ -246,6 +246,16 @@ impl Grid {
         let found = self.cell(row, column).chars().take(60).collect();
         let (line, heading) = (self.lines[row], self.name_of(column));
         InputError::Cell { line, heading, found, expected: expected.into() }
+    }
+
+    /// The error of headings that are not understood.
+    pub fn not_understood(&self, headings: &[&str], expected: &'static str) -> InputError {
+        match headings.join(",") {
+            heading if self.has_headings && !headings.is_empty() => {
+                InputError::Heading { heading, expected, found: self.found() }
+            }
+            _ => InputError::unexpected(self.found(), expected),
+        }
     }
 
     /// The headings, for messages.

@@ -9,7 +9,7 @@ use super::error::{InputError, Result};
 use super::grid::Source;
 use super::heading::Heading;
 use super::numbers::{is_missing, is_number};
-use super::words::{are_known, joined};
+use super::words::{are_known, joined, normal};
 
 /// Rows at the end of a table that show how it is written.
 pub const SHOWN: usize = 400;
@@ -269,7 +269,8 @@ fn is_word(cell: &str) -> bool {
 fn is_units(row: &RawRow) -> bool {
     const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
     let cells = row.cells.iter();
-    let cells = cells.map(|cell| uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
+    let cells =
+        cells.map(|cell| normal(uncommented(cell)).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
     let mut units = cells.filter(|cell| !OTHERS.contains(&cell.as_str())).peekable();
     units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
 }

@@ -116,11 +116,6 @@ impl Notation {
             |decimal| read(cell, decimal),
         )
     }
-
-    /// Whether a cell is a number but for a sign that may be decimal or not.
-    pub fn is_unclear(self, cell: &str) -> bool {
-        self.number(cell).is_none() && self.decimal.is_none() && is_number(cell)
-    }
 }
 
 fn share(cell: &str) -> (&str, f64) {

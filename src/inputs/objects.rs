@@ -73,7 +73,7 @@ impl List<'_> {
             let is_text = grid.is_text(at);
             list.columns[at] = match list.columns[at] {
                 Role::Number if is_text => Role::Kept,
-                Role::Number => list.count_or_name(at)?,
+                Role::Number => list.numbered(at)?,
                 // A ward, perhaps.
                 Role::Unit if !has_units => Role::Kept,
                 Role::NotUnderstood if is_text => Role::Kept,
@@ -90,19 +90,13 @@ impl List<'_> {
         Ok(list)
     }
 
-    /// Numbers count objects if one comes again, and name rows if they go up by one.
-    fn count_or_name(&self, at: usize) -> Result<Role> {
+    /// The role of numbers that name rows if they go up by one, and else may count objects.
+    fn numbered(&self, at: usize) -> Result<Role> {
         let numbers = self.grid.numbers(at)?;
-        let mut distinct: Vec<u64> = numbers.iter().map(|number| number.to_bits()).collect();
-        distinct.sort();
-        distinct.dedup();
-        let heading = &self.grid.headings[at].text;
         let go_up = numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
-        match go_up && (numbers.len() > 1 || numbers == [1.0]) {
-            true => Ok(Role::Kept),
-            false if distinct.len() < numbers.len() => Ok(Role::Count),
-            false => Err(InputError::Number { heading: heading.clone() }),
-        }
+        let is_sure = go_up && (numbers.len() > 1 || numbers == [1.0]);
+        let heading = self.grid.headings[at].text.clone();
+        if is_sure { Ok(Role::Kept) } else { Err(InputError::Number { heading }) }
     }
 
     /// Checks the headings, the lengths below each, and remarks on units.
@@ -110,8 +104,8 @@ impl List<'_> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
         if [Field::Height, Field::P].iter().all(|field| self.column(Role::Known(*field)).is_none()) {
             let unknown = [Role::NotUnderstood, Role::Unclear, Role::Kept];
-            let mut unknown = unknown.iter().flat_map(|role| self.headings(*role));
-            return Err(InputError::not_understood(unknown.next(), expected, grid.found()));
+            let unknown: Vec<&str> = unknown.iter().flat_map(|role| self.headings(*role)).take(1).collect();
+            return Err(grid.not_understood(&unknown, expected));
         }
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));

@@ -1,4 +1,4 @@
-//! Sheets of workbooks: .xlsx, .xls, .xlsb and .ods.
+//! Sheets of workbooks: .xlsx, .xls and .ods.
 
 use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
@@ -127,13 +127,7 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
     let mut cells = Vec::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
-        Sheets::Xlsb(workbook) => {
-            let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
-            while let Some(cell) = reader.next_cell().map_err(InputError::damaged)? {
-                cells.push(Cell::new(cell.get_position(), text(&cell.get_value().clone().into(), None)));
-                expect_few_cells(cells.len())?;
-            }
-        }
+        Sheets::Xlsb(_) => return Err(InputError::NoTable { found: "a binary workbook" }),
         others => {
             let range = others.worksheet_range(sheet).map_err(InputError::damaged)?;
             let formulas = others.worksheet_formula(sheet).map_err(InputError::damaged)?;

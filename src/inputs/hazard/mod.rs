@@ -21,7 +21,6 @@ use self::told::noted;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
-use crate::source;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
 /// ground-motion fields stand for. Warnings are about medians and motions beyond any record.
@@ -149,7 +148,6 @@ struct Found {
 impl Found {
     /// Adds what is in a file: each of its columns has one role, or it is refused.
     fn add(&mut self, path: &Path, reader: &mut Reader, effective_years: Option<f64>) -> Result<()> {
-        expect_table(path)?;
         let mut grid = reader.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
@@ -300,18 +298,6 @@ impl Found {
     }
 }
 
-/// Refuses what holds no table, by what it is.
-fn expect_table(path: &Path) -> Result<()> {
-    let (file, _) = source::split_sheet(path);
-    let bytes = source::read(&file).unwrap_or_default();
-    let found = match bytes.trim_ascii_start() {
-        [b'{' | b'[', ..] => "JSON, as of a web service",
-        start if start.starts_with(b"<?xml") || start.starts_with(b"<nrml") => "XML, as OpenQuake's NRML",
-        _ => return Ok(()),
-    };
-    Err(InputError::unexpected(found, "the same curve as CSV: intensities in g under pga_g, rates under AFE"))
-}
-
 const UNDERSTOOD: &str = "a peak with its unit (pga_g, PGV (m/s)), its rates (AFE, PoE in 50 years, return \
                           period) or a place: --columns pga_g=HEADING names one, --ignore HEADING,... leaves \
                           others out";
@@ -321,11 +307,7 @@ pub fn expect_understood(grid: &Grid, meanings: &[Meaning]) -> Result<()> {
     let columns = grid.headings.iter().zip(meanings);
     let unknown = columns.filter(|(_, meaning)| **meaning == Meaning::NotUnderstood);
     let unknown: Vec<&str> = unknown.map(|(heading, _)| heading.text.as_str()).collect();
-    if unknown.is_empty() {
-        return Ok(());
-    }
-    let heading = Some(unknown.join(",")).filter(|_| grid.has_headings);
-    Err(InputError::not_understood(heading.as_deref(), UNDERSTOOD, grid.found()))
+    if unknown.is_empty() { Ok(()) } else { Err(grid.not_understood(&unknown, UNDERSTOOD)) }
 }
 
 /// Columns of values, each with those of frequencies that may belong to it: those before or behind it up to
