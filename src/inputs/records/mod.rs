@@ -1,12 +1,4 @@
 //! File formats of records: from the bytes of a file to accelerations.
-//!
-//! ```text
-//! peer_at2  PEER's AT2, old and NGA
-//! cosmos    COSMOS V1 and V2
-//! keyed     lines of key and value: K-NET, KiK-net, Engineering Strong Motion database
-//! csv       columns of a table, with or without times
-//! header    fields and blocks of numbers, common to several formats
-//! ```
 
 mod cosmos;
 mod csv;
