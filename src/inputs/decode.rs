@@ -1,4 +1,4 @@
-//! Decodes text: UTF-8, UTF-16, Shift JIS, Windows-1252, and others where there is enough of it to tell.
+//! Decodes text: UTF-8, UTF-16, Shift JIS and Windows-1252.
 
 use std::borrow::Cow;
 
@@ -16,9 +16,6 @@ const OTHERS: [(&[&[u8]], &str); 4] = [
 ];
 /// Signs of numbers and units, which do not tell the language.
 const SIGNS: &str = "\u{b0}\u{b1}\u{b2}\u{b3}\u{b5}\u{b7}\u{bd}\u{d7}\u{d8}";
-/// More letters beyond ASCII tell apart encodings of scripts other than Latin: none of thousands of short
-/// lists in twenty encodings was mistaken.
-const TELLING: usize = 40;
 
 /// Decodes a text; its lines end in `\n`.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
@@ -66,9 +63,7 @@ fn encoding(bytes: &[u8]) -> Result<&'static Encoding> {
     if western.chars().all(|sign| sign.is_ascii() || SIGNS.contains(sign)) {
         return Ok(WINDOWS_1252);
     }
-    let letters = read.chars().filter(|sign| sign.is_alphabetic() && !sign.is_ascii());
-    let is_latin = letters.clone().all(|letter| letter < '\u{250}');
-    if guess == SHIFT_JIS || read == western || !is_latin && letters.count() > TELLING {
+    if guess == SHIFT_JIS || read == western {
         return Ok(guess);
     }
     let found = format!("a text that may be {}, or not", guess.name());

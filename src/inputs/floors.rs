@@ -75,12 +75,8 @@ impl Storey {
     }
 }
 
-pub fn is_ordinal(word: &str) -> bool {
-    ordinal(word).is_some()
-}
-
 /// The number of an ordinal, by the beginning of its word: third, terzo, dritter.
-fn ordinal(word: &str) -> Option<f64> {
+pub fn ordinal(word: &str) -> Option<f64> {
     let of_number = |words: &str| words.split('|').any(|start| word.starts_with(start));
     synonyms("ordinal").position(of_number).map(|at| (at + 1) as f64)
 }

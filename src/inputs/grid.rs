@@ -13,6 +13,7 @@ use super::heading::{Heading, number_with_unit};
 use super::layout::{Layout, RawRow, RowRole, layout};
 use super::numbers::{self, Evidence, Notation, is_missing, is_number};
 use super::reading::{ColumnReading, Meaning, Reading};
+use super::remarks::is_unread;
 use super::separated;
 use super::unpack::unpack_one;
 use super::words::{means, synonyms};
@@ -69,7 +70,8 @@ impl Grid {
         if workbook::is_workbook(&bytes) {
             let Sheet { first_line, rows, repeated, source, name } = workbook::read(&bytes, sheet)?;
             let mut grid = Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated)?;
-            grid.notes.push(name);
+            // As a comment: most names say nothing.
+            grid.notes.push(format!("# {name}"));
             return Ok(grid);
         }
         let (rows, source) = separated::rows(&decode(&bytes)?)?;
@@ -290,7 +292,7 @@ impl Grid {
         Reading {
             file: path.display().to_string(),
             rows: self.lines.len(),
-            unread: Vec::new(),
+            unread: self.notes.iter().filter(|note| is_unread(note)).cloned().collect(),
             columns: columns.chain(self.ignored.iter().cloned()).collect(),
             others: [self.others.clone(), self.notes.iter().map(|note| format!("remark: {note}")).collect()]
                 .concat(),

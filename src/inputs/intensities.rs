@@ -24,7 +24,7 @@ pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>>
         let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
         let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
         expect_understood(&grid, &meanings)?;
-        reader.tell(path, &grid, meanings, Vec::new());
+        reader.tell(path, &grid, meanings);
         Ok(columns)
     });
     read.map_err(|error| error.in_file(path))
@@ -41,7 +41,7 @@ fn expect_intensities(grid: &Grid) -> Result<()> {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
         return Err(InputError::unexpected(found, "intensities under pga_g and pgv_m_s"));
     }
-    if let Some(column) = grid.headings.iter().position(|heading| heading.name == "component")
+    if let Some(column) = grid.headings.iter().position(|heading| heading.name.starts_with("comp"))
         && let Some(row) = grid.rows().find(|row| is_vertical(grid.cell(*row, column)))
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));

@@ -11,7 +11,7 @@ use rockfrag_core::warning::{Warning, Warnings};
 use super::floors::{self, Building, Storey};
 use super::remarks::{held_by, is_on_anchors, is_on_floors, unit_of_remark};
 use super::roles::{Role, meaning};
-use super::words::{is_one_of, joined, means};
+use super::words::means;
 use super::{Grid, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
@@ -46,7 +46,7 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
             [name, first].iter().any(|cell| means(cell, "total"))
         });
         let list = List::new(&grid, defaults)?;
-        reader.tell(path, &grid, list.meanings(), list.unread());
+        reader.tell(path, &grid, list.meanings());
         reader.warnings.extend(list.doubts());
         Ok(list.objects())
     };
@@ -65,17 +65,11 @@ impl List<'_> {
         let mut columns: Vec<Role> = grid.headings.iter().map(meaning).collect();
         grid.about("name").into_iter().for_each(|at| columns[at] = Role::Name);
         let mut list = List { grid, columns, ground_floor: 0, defaults: *defaults };
-        let has_units = list.column(Role::Unit).is_some_and(|at| {
-            let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
-            units.any(|unit| unit.quantity == Quantity::Length)
-        });
         for at in 0..list.columns.len() {
             let is_text = grid.is_text(at);
             list.columns[at] = match list.columns[at] {
                 Role::Number if is_text => Role::Kept,
                 Role::Number => list.numbered(at)?,
-                // A ward, perhaps.
-                Role::Unit if !has_units => Role::Kept,
                 Role::NotUnderstood if is_text => Role::Kept,
                 role => role,
             };
@@ -104,8 +98,9 @@ impl List<'_> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
         if [Field::Height, Field::P].iter().all(|field| self.column(Role::Known(*field)).is_none()) {
             let unknown = [Role::NotUnderstood, Role::Unclear, Role::Kept];
-            let unknown: Vec<&str> = unknown.iter().flat_map(|role| self.headings(*role)).take(1).collect();
-            return Err(grid.not_understood(&unknown, expected));
+            let unknown =
+                unknown.iter().find_map(|role| self.column(*role)).map(|at| &*grid.headings[at].text);
+            return Err(grid.not_understood(unknown.as_slice(), expected));
         }
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
@@ -114,8 +109,12 @@ impl List<'_> {
             grid.headings.iter().zip(&self.columns).filter(|(_, of)| matches!(of, Role::Name | Role::Kept));
         let of_headings = own.filter_map(|(heading, _)| Some((&*heading.text, heading.unit?)));
         let of_lengths = |(_, unit): &(&str, Unit)| unit.quantity == Quantity::Length;
+        let of_units =
+            self.column(Role::Unit).into_iter().flat_map(|at| grid.rows().map(move |row| (row, at)));
+        let of_units =
+            of_units.map(|(row, at)| grid.cell(row, at)).filter_map(|cell| Some((cell, Unit::parse(cell)?)));
         let mut of_remarks = self.remarks().filter_map(|note| Some((note, unit_of_remark(note)?)));
-        let remarked = of_headings.clone().find(of_lengths).or_else(|| of_remarks.next());
+        let remarked = of_headings.chain(of_units).find(of_lengths).or_else(|| of_remarks.next());
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             if matches!(column, Role::Known(_)) && (heading.is_scaled || heading.is_percent) {
                 let found = format!("heading '{}'", heading.text);
@@ -159,23 +158,8 @@ impl List<'_> {
         self.grid.notes.iter().map(String::as_str).chain(beside)
     }
 
-    /// Remarks on what decides, which are not used.
-    fn unread(&self) -> Vec<String> {
-        let is_on_centre = |note: &str| joined(note).split('-').any(|word| is_one_of(word, "centre"));
-        let notes = self.grid.notes.iter();
-        notes
-            .filter(|note| is_on_anchors(note) || is_on_floors(note) || is_on_centre(note))
-            .cloned()
-            .collect()
-    }
-
     fn column(&self, wanted: Role) -> Option<usize> {
         self.columns.iter().position(|column| *column == wanted)
-    }
-
-    fn headings(&self, wanted: Role) -> impl Iterator<Item = &str> {
-        let all = self.grid.headings.iter().zip(&self.columns).filter(move |(_, column)| **column == wanted);
-        all.map(|(heading, _)| heading.text.as_str()).filter(|text| !text.is_empty())
     }
 
     /// What stands in a column, if it says anything.
@@ -305,7 +289,7 @@ impl List<'_> {
             if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
                 continue;
             }
-            let size = fields.first().map_or(Ok(1.0), |field| self.size(row, at, *field))?;
+            let size = fields.first().map_or(Ok(1.0), |field| self.size(at, *field))?;
             let text = match self.grid.number(row, at) {
                 Ok(number) => rounded(size * number).to_string(),
                 // Other fields may be words, or know what is expected.
@@ -321,18 +305,11 @@ impl List<'_> {
         Ok(object)
     }
 
-    /// The size of the unit of a cell in m, s, rad or rad/s: that of its heading, of lengths else that of the
-    /// row.
-    fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
-        let (heading, quantity) = (&self.grid.headings[at], field.entry().quantity);
-        let cell = self.cell(row, Role::Unit).filter(|_| quantity == Some(Quantity::Length));
-        let own = cell.map(|cell| {
-            let own = Unit::parse(cell).filter(|own| heading.unit.is_none_or(|unit| unit == *own));
-            own.ok_or_else(|| format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text))
-        });
-        match heading.unit.or(own.transpose()?) {
+    /// The size of the unit of a column in m, s, rad or rad/s.
+    fn size(&self, at: usize, field: Field) -> Result<f64, String> {
+        match self.grid.headings[at].unit {
             None => Ok(1.0),
-            Some(unit) if Some(unit.quantity) == quantity => Ok(unit.si),
+            Some(unit) if Some(unit.quantity) == field.entry().quantity => Ok(unit.si),
             Some(unit) => Err(format!("{field} is in {}; expected another unit, or none", unit.name)),
         }
     }

@@ -77,9 +77,9 @@ impl<'a> Reader<'a> {
         Ok(grid)
     }
 
-    /// Keeps how a table was read: the meaning of each of its columns, and remarks that are not used.
-    pub fn tell(&mut self, path: &Path, grid: &Grid, meanings: Vec<Meaning>, unread: Vec<String>) {
-        self.readings.push(Reading { unread, ..grid.reading(path, meanings) });
+    /// Keeps how a table was read: the meaning of each of its columns.
+    pub fn tell(&mut self, path: &Path, grid: &Grid, meanings: Vec<Meaning>) {
+        self.readings.push(grid.reading(path, meanings));
     }
 
     /// The name of a column of a table of others, as it is to be called.

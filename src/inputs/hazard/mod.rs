@@ -188,7 +188,7 @@ impl Found {
             true => self.add_motions(&grid, occurrence, effective_years)?,
             false => self.add_curves(&grid, &columns, &told, path)?,
         }
-        reader.tell(path, &grid, meanings, Vec::new());
+        reader.tell(path, &grid, meanings);
         Ok(())
     }
 
