@@ -5,6 +5,7 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::words::means;
 use crate::number::listed;
 
 /// Columns that a sentence names.
@@ -71,7 +72,10 @@ impl Reading {
 
     /// Names the columns and remarks that are not understood, if there are any.
     pub fn gaps(&self) -> Option<String> {
-        let columns = self.columns.iter().filter(|column| column.meaning == Meaning::NotUnderstood);
+        let columns = self.columns.iter().filter(|column| match column.meaning {
+            Meaning::Kept => column.filled > 0 && means(&column.heading, "remark"),
+            _ => column.meaning == Meaning::NotUnderstood,
+        });
         let columns: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
         let unread: Vec<String> = self.unread.iter().map(|remark| format!("'{remark}'")).collect();
         let told =
