@@ -41,7 +41,8 @@ fn expect_intensities(grid: &Grid) -> Result<()> {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
         return Err(InputError::unexpected(found, "intensities under pga_g and pgv_m_s"));
     }
-    if let Some(column) = grid.headings.iter().position(|heading| heading.name.starts_with("comp"))
+    let is_direction = |name: &str| ["comp", "komp", "dir", "chan"].iter().any(|of| name.starts_with(of));
+    if let Some(column) = grid.headings.iter().position(|heading| is_direction(&heading.name))
         && let Some(row) = grid.rows().find(|row| is_vertical(grid.cell(*row, column)))
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));

@@ -235,7 +235,7 @@ fn take_statistic(words: &mut Vec<String>) -> Option<Statistic> {
         let are_years = is(at + 1, "years") || at > 0 && is(at - 1, "probability");
         let is_ranked = (at.saturating_sub(1)..at + 3).any(|beside| is(beside, "fractile"));
         let statistic = match words[at].as_str() {
-            "median" => Statistic::Median,
+            "median" | "mediana" | "médiane" => Statistic::Median,
             "50" | "0.5" | "0.50" if is_ranked && !are_years => Statistic::Median,
             "16" | "0.16" if !are_years => Statistic::Low,
             "84" | "0.84" if !are_years => Statistic::High,

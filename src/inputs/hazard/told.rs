@@ -7,7 +7,7 @@ use std::path::Path;
 use rockfrag_core::units::Unit;
 
 use super::columns::{Frequency, Imt, Phrase, Statistic};
-use crate::inputs::words::means;
+use crate::inputs::words::{means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
 use crate::source::split_sheet;
 
@@ -42,15 +42,20 @@ impl Told {
         let parts = text.split([';', ',']).map(|part| Phrase::new(&part.replace("AG", "")));
         let parts: Vec<Phrase> = parts.collect();
         let has = |word: &str| parts.iter().any(|part| part.rest.iter().any(|own| own == word));
-        let ranked = parts.iter().find(|part| part.is_ranked && !has("mean"));
+        let is_limit = |part: &Phrase| matches!(part.statistic, Some(Statistic::Low | Statistic::High));
+        let ranked = parts.iter().find(|part| part.is_ranked && (is_limit(part) || !has("mean")));
         let is_other = ranked.is_some_and(|part| part.statistic.is_none());
-        if is_other || has("vertical") && !has("horizontal") {
+        if is_other || says_vertical(text) {
             let expected = "horizontal motion: the mean, the median, or the 16th and 84th percentiles";
             return Err(InputError::unexpected(format!("'{text}'"), expected));
         }
         self.statistic = ranked.and_then(|part| part.statistic).or(self.statistic);
         for part in parts {
-            let is_of_unit = !part.measures.is_empty() || part.rest.iter().any(|word| means(word, "unit"));
+            let is_of_unit = |word: &String| means(word, "unit") || word.starts_with("acc");
+            let is_of_unit = !part.measures.is_empty() || part.rest.iter().any(is_of_unit);
+            if let (Some(Frequency::ProbabilityIn(years)), None) = (part.frequency, self.years) {
+                self.years = Some(years);
+            }
             self.units.extend(part.unit.filter(|_| is_of_unit));
             self.add(part.measures);
         }

@@ -7,7 +7,7 @@ use rockfrag_core::units::{Quantity, Unit};
 use super::ReadOptions;
 use super::header::{self, azimuth_of, expect_step, header_pga, number, time_step};
 use crate::inputs::heading::number_with_unit;
-use crate::inputs::words::{is_vertical, joined, means};
+use crate::inputs::words::{is_vertical, joined, means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Result};
 
 /// After which clocks begin anew.
@@ -344,9 +344,7 @@ fn noted_component(note: &str) -> Option<(&str, Option<f64>)> {
     let is_named = ["component", "channel", "direction"].iter().any(|of| joined(key).ends_with(of));
     let of_value = azimuth_of(value).is_some() || is_vertical(value.trim());
     let named = is_named && of_value;
-    let words = joined(note);
-    let is_vertical = words.contains("vertical") && !words.contains("horizontal");
-    named.then(|| (value.trim(), azimuth_of(value))).or(is_vertical.then_some(("vertical", None)))
+    named.then(|| (value.trim(), azimuth_of(value))).or(says_vertical(note).then_some(("vertical", None)))
 }
 
 /// Reads the time step (s) in a comment such as `dt = 0.01 s`, `Sampling rate: 100 sps`, or

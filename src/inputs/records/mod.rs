@@ -45,6 +45,8 @@ pub fn is_vertical(origin: &Origin) -> bool {
     origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
 }
 
+/// Largest number of header lines.
+const HEADER: usize = 200;
 /// Accepted relative difference of the peak in a header, which may be rounded or of uncorrected samples.
 const SAME_PEAK: f64 = 0.05;
 
@@ -70,8 +72,12 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         RecordFormat::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
         RecordFormat::Csv => csv::parse(bytes, options)?,
     };
+    let in_borehole = ["borehole", "downhole"];
+    let is_in_borehole = |line: &&str| in_borehole.iter().any(|word| header::after(line, word).is_some());
+    let is_in_borehole = lines.iter().take(HEADER).any(is_in_borehole);
     for motion in &mut motions {
         motion.format = format.into();
+        motion.is_in_borehole |= is_in_borehole;
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga
