@@ -24,7 +24,6 @@ use crate::source;
 /// Numbers below this stand for what is not known.
 const UNKNOWN: f64 = -99.0;
 
-/// Rows of cells under headings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
     /// Comments, lines above, below and between the rows, and the name of the sheet.
@@ -250,7 +249,6 @@ impl Grid {
         InputError::Cell { line, heading, found, expected: expected.into() }
     }
 
-    /// The error of headings that are not understood.
     pub fn not_understood(&self, headings: &[&str], expected: &'static str) -> InputError {
         match headings.join(",") {
             heading if self.has_headings && !headings.is_empty() => {
@@ -260,7 +258,6 @@ impl Grid {
         }
     }
 
-    /// The headings, for messages.
     pub fn found(&self) -> String {
         let texts: Vec<&str> = self.headings.iter().map(|heading| heading.text.as_str()).collect();
         match self.has_headings {

@@ -86,7 +86,6 @@ impl Heading {
     }
 }
 
-/// A number and the unit behind it.
 pub fn number_with_unit(cell: &str) -> Option<(&str, Unit)> {
     let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
     if end == 0 || end == cell.len() {

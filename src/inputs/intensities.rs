@@ -119,7 +119,6 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
     }
 }
 
-/// Refuses a row of totals or means.
 pub fn expect_motions_alone(grid: &Grid) -> Result<()> {
     let mut cells = grid.rows().flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
     let total = cells.find(|(row, at)| {

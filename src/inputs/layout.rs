@@ -37,7 +37,6 @@ impl RawRow {
         filled.all(|(_, cell)| cell == first && source == Source::Xlsx).then_some(first)
     }
 
-    /// What it says, as a remark.
     pub fn text(&self, source: Source) -> String {
         let filled: Vec<&str> = self.filled().map(|(_, cell)| cell).collect();
         self.alone(source)
@@ -49,7 +48,6 @@ impl RawRow {
     }
 }
 
-/// What a row is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RowRole {
     /// Headings, their units, or a line drawn with signs.
@@ -67,7 +65,6 @@ pub struct Layout {
     pub roles: Vec<RowRole>,
 }
 
-/// Finds the headings and what each row is.
 pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     let is_number_column = number_columns(rows);
     let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
@@ -179,7 +176,6 @@ fn joined_rows(rows: &[RawRow], source: Source) -> Vec<Heading> {
     columns.into_iter().map(Heading::of_rows).collect()
 }
 
-/// Whether a row has the headings again.
 fn repeats(row: &RawRow, headings: &[Heading]) -> bool {
     let mut filled = row.filled().peekable();
     let is_same = |(at, cell): (usize, &str)| {
@@ -275,13 +271,11 @@ fn is_units(row: &RawRow) -> bool {
     units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
 }
 
-/// Whether a row is a line drawn with signs.
 fn is_ruler(cells: &StringRecord) -> bool {
     let mut cells = cells.iter().filter(|cell| !cell.is_empty());
     cells.all(|cell| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign)))
 }
 
-/// Headings with the units in a row below.
 fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
     let with_unit = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
         "" | "-" => Ok(heading.clone()),

@@ -122,7 +122,6 @@ fn share(cell: &str) -> (&str, f64) {
     cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01))
 }
 
-/// Reads a number with this decimal sign.
 fn read(cell: &str, decimal: char) -> Option<f64> {
     let cell = normal_number(cell)?;
     let (text, size) = share(&cell);

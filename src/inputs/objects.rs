@@ -18,7 +18,6 @@ use crate::number::rounded;
 /// Without one of these, in a cell that is not empty, there is no object.
 const NEEDED: [Field; 4] = [Field::Width, Field::Height, Field::P, Field::Alpha];
 
-/// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListDefaults {
     pub ground_floor: Option<u32>,
@@ -224,7 +223,6 @@ impl List<'_> {
         })
     }
 
-    /// What each column says.
     fn meanings(&self) -> Vec<Meaning> {
         let meaning = |role: &Role| match role {
             Role::Kept => Meaning::Kept,
@@ -234,7 +232,6 @@ impl List<'_> {
         self.columns.iter().map(meaning).collect()
     }
 
-    /// What else a row says, in words of its own.
     fn labels(&self, row: usize) -> Vec<(String, String)> {
         let kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
         kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
@@ -247,7 +244,6 @@ impl List<'_> {
         }
     }
 
-    /// Whether a row says on which floor its object stands.
     fn names_floor(&self, row: usize) -> bool {
         self.cell(row, Role::Storey).or(self.cell(row, Role::Known(Field::Level))).is_some()
     }
@@ -314,7 +310,6 @@ impl List<'_> {
         }
     }
 
-    /// Puts an object on the floor that its row names.
     fn put_on_floor(&self, row: usize, object: &mut Object) -> Result<(), String> {
         let Some(cell) = self.cell(row, Role::Storey) else { return Ok(()) };
         let default = self.defaults.storeys.map(|all| all.to_string());

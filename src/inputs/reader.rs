@@ -12,7 +12,6 @@ use super::hazard::contradict;
 use super::heading::Heading;
 use super::reading::{Meaning, Reading};
 
-/// A column, and its heading in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rename {
     pub column: String,
@@ -92,7 +91,6 @@ impl<'a> Reader<'a> {
         self.renames.iter().find(|rename| rename.heading == heading).map(|rename| rename.column.as_str())
     }
 
-    /// Refuses a heading that no file has.
     pub fn expect_used(&self) -> Result<()> {
         let headings = self.renames.iter().map(|rename| &rename.heading).chain(self.ignored);
         let mut unused = headings.filter(|heading| !self.seen.contains(heading));

@@ -11,11 +11,9 @@ use crate::number::listed;
 /// Columns that a sentence names.
 const NAMED: usize = 12;
 
-/// How a table was read.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     pub file: String,
-    /// Number of rows of data.
     pub rows: usize,
     pub columns: Vec<ColumnReading>,
     /// Remarks on what decides, which are not used.
@@ -38,7 +36,6 @@ pub struct ColumnReading {
     pub last: String,
 }
 
-/// What a column says.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
@@ -65,7 +62,6 @@ impl Meaning {
 }
 
 impl Reading {
-    /// Its file, without the folder.
     pub fn name(&self) -> Cow<'_, str> {
         Path::new(&self.file).file_name().unwrap_or(self.file.as_ref()).to_string_lossy()
     }

@@ -7,7 +7,6 @@ use strum::VariantArray;
 use super::Heading;
 use super::words::{is_one_of, synonyms};
 
-/// What a column of a list says.
 #[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Role {
@@ -96,12 +95,10 @@ pub fn meaning(heading: &Heading) -> Role {
     }
 }
 
-/// Whether a word is of what holds an object.
 pub fn holds(word: &str) -> bool {
     synonyms("holds").any(|start| word.starts_with(start))
 }
 
-/// The role of a heading in these words.
 fn known(name: &str) -> Option<Role> {
     const OTHERS: [(&str, Role); 8] = [
         ("diameter", Role::Diameter),

@@ -20,7 +20,6 @@ pub fn synonyms(meaning: &str) -> impl Iterator<Item = &'static str> {
     WORDS.get(meaning).into_iter().flatten().copied()
 }
 
-/// Whether a text has a meaning.
 pub fn means(text: &str, meaning: &str) -> bool {
     is_one_of(&joined(text), meaning)
 }

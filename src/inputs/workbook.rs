@@ -122,7 +122,6 @@ fn expect_few_announced(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// The cells of a sheet that have a text.
 fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
     let mut cells = Vec::new();
     match workbook {

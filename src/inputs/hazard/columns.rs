@@ -7,7 +7,6 @@ use super::told::Told;
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, Result};
 
-/// An intensity measure type.
 #[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
 #[strum(serialize_all = "UPPERCASE")]
 pub enum Imt {
@@ -121,7 +120,6 @@ impl Phrase {
             || differ(self.years(), other.years())
     }
 
-    /// Its frequency, measure and fractile.
     pub fn meaning(&self) -> String {
         let frequency = self.frequency.map(|frequency| frequency.to_string());
         let measure = self.measure().map(|measure| measure.to_string());
@@ -138,7 +136,6 @@ impl Phrase {
         self.rest.iter().all(|word| meanings.iter().any(|meaning| is_one_of(word, meaning)))
     }
 
-    /// Whether it is of values in a unit.
     fn are_values(&self, unit: Unit) -> bool {
         let name = match (unit.quantity, &self.measures[..]) {
             (Quantity::Acceleration, [] | [Imt::Pga | Imt::Sa | Imt::SaAt(_)]) => "acceleration",

@@ -192,7 +192,6 @@ impl Found {
         Ok(())
     }
 
-    /// Adds the curves of columns of values and of frequencies.
     fn add_curves(&mut self, grid: &Grid, columns: &[Phrase], told: &Told, file: &Path) -> Result<()> {
         let pairs = pairs(columns);
         let named = pairs.iter().map(|pair| pair.iter().find_map(|at| columns[*at].measure()));
@@ -302,7 +301,6 @@ const UNDERSTOOD: &str = "a peak with its unit (pga_g, PGV (m/s)), its rates (AF
                           period) or a place: --columns pga_g=HEADING names one, --ignore HEADING,... leaves \
                           others out";
 
-/// Refuses columns without a role.
 pub fn expect_understood(grid: &Grid, meanings: &[Meaning]) -> Result<()> {
     let columns = grid.headings.iter().zip(meanings);
     let unknown = columns.filter(|(_, meaning)| **meaning == Meaning::NotUnderstood);

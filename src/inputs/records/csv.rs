@@ -232,7 +232,6 @@ impl Samples<'_> {
     }
 }
 
-/// Digits behind the decimal sign.
 fn decimals_of(cell: &str) -> usize {
     cell.split(['.', ',']).nth(1).map_or(0, str::len)
 }
@@ -262,7 +261,6 @@ fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
     quantities
 }
 
-/// The quantity that a heading names.
 fn quantity(heading: &Heading) -> Option<Quantity> {
     let named = heading.name.split('-').find_map(|word| match word {
         "a" | "ag" => Some(Quantity::Acceleration),

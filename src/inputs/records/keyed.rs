@@ -89,7 +89,6 @@ pub fn esm(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     })
 }
 
-/// The leading lines of `KEY: value`.
 fn esm_header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
     let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
     &lines[..end]

@@ -16,7 +16,6 @@ use strum::VariantArray;
 
 use super::{InputError, Result, decode, words};
 
-/// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -45,7 +44,6 @@ pub fn is_vertical(origin: &Origin) -> bool {
     origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
 }
 
-/// Largest number of header lines.
 const HEADER: usize = 200;
 /// Accepted relative difference of the peak in a header, which may be rounded or of uncorrected samples.
 const SAME_PEAK: f64 = 0.05;
