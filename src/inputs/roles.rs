@@ -62,13 +62,13 @@ pub fn meaning(heading: &Heading) -> Role {
     let (centres, others): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_one_of(word, "centre"));
     let is_one_thing = |role: &Role| words.iter().all(|word| known(word).as_ref() == Some(role));
     let quantity = heading.unit.map(|unit| unit.quantity);
-    let are_all = |is_one: &dyn Fn(&str) -> bool, other: &str| {
-        words.iter().any(|word| is_one(word))
-            && words.iter().all(|word| is_one(word) || is_one_of(word, other))
+    let are_anchors = || {
+        words.iter().any(|word| holds(word))
+            && words.iter().all(|word| holds(word) || is_one_of(word, "of-anchors"))
     };
     if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
         role
-    } else if are_all(&|word| is_one_of(word, "count"), "of-counts") || quantity == Some(Quantity::Counts) {
+    } else if quantity == Some(Quantity::Counts) {
         Role::Count
     } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
         // In two languages.
@@ -79,7 +79,7 @@ pub fn meaning(heading: &Heading) -> Role {
             Some(Role::Known(Field::CentreOffset)) => Role::Known(Field::CentreOffset),
             _ => Role::Unclear,
         }
-    } else if are_all(&holds, "of-anchors") {
+    } else if are_anchors() {
         Role::Held
     } else if name.is_empty() && heading.text == "#" {
         Role::Number
