@@ -30,22 +30,10 @@ pub enum InputError {
     Cell { line: usize, heading: String, found: String, expected: String },
     #[error("'{heading}' and '{unit}' contradict each other: a unit, years or a measure")]
     Units { heading: String, unit: String },
-    #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
-    Heading { heading: String, expected: &'static str, found: String },
     #[error("{found}; expected {expected}")]
     Unexpected { found: String, expected: &'static str },
     #[error("line {line}: no {field}; expected {expected}")]
     Missing { line: usize, field: &'static str, expected: &'static str },
-    #[error(
-        "column '{heading}': the lowest floor is {lowest}: --ground-floor 1 if the ground floor is called 1, \
-         --ground-floor 0 if 1 is the floor above it"
-    )]
-    GroundFloor { heading: String, lowest: u32 },
-    #[error(
-        "column '{heading}': does it count objects or name them? --columns count={heading} or name={heading}, or \
-         --ignore {heading}"
-    )]
-    Number { heading: String },
     #[error("no heading '{heading}' in any file; found {seen}")]
     Renamed { heading: String, seen: String },
     #[error(transparent)]

@@ -93,9 +93,7 @@ impl Grid {
         for (row, role) in rows.into_iter().zip(roles) {
             match role {
                 RowRole::Head if grid.rows.is_empty() => {}
-                RowRole::Head => {
-                    grid.others.push(format!("line {}: headings again, or a drawn line", row.line))
-                }
+                RowRole::Head => grid.others.push(format!("line {}: headings again", row.line)),
                 RowRole::Remark => grid.notes.push(row.text(source)),
                 RowRole::Section => {
                     section = row.text(source);
@@ -250,12 +248,9 @@ impl Grid {
     }
 
     pub fn not_understood(&self, headings: &[&str], expected: &'static str) -> InputError {
-        match headings.join(",") {
-            heading if self.has_headings && !headings.is_empty() => {
-                InputError::Heading { heading, expected, found: self.found() }
-            }
-            _ => InputError::unexpected(self.found(), expected),
-        }
+        let is_named = self.has_headings && !headings.is_empty();
+        let named = || format!("heading '{}' is not understood", headings.join(","));
+        InputError::unexpected(if is_named { named() } else { self.found() }, expected)
     }
 
     pub fn found(&self) -> String {

@@ -50,7 +50,7 @@ impl RawRow {
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RowRole {
-    /// Headings, their units, or a line drawn with signs.
+    /// Headings, or their units.
     Head,
     /// A comment, a title, or what else stands above, below or between rows.
     Remark,
@@ -89,7 +89,6 @@ pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     for (at, row) in rows.iter().enumerate().skip(end) {
         let is_named = is_number_column.first() == Some(&false) && headings.len() > 1;
         roles[at] = match row.alone(source) {
-            _ if is_ruler(&row.cells) => RowRole::Head,
             // An object may be called #2.
             _ if row.is_comment && source == Source::Blanks && at < start => RowRole::Remark,
             alone if row.is_comment => {
@@ -269,11 +268,6 @@ fn is_units(row: &RawRow) -> bool {
         cells.map(|cell| normal(uncommented(cell)).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
     let mut units = cells.filter(|cell| !OTHERS.contains(&cell.as_str())).peekable();
     units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
-}
-
-fn is_ruler(cells: &StringRecord) -> bool {
-    let mut cells = cells.iter().filter(|cell| !cell.is_empty());
-    cells.all(|cell| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign)))
 }
 
 fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {

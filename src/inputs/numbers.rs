@@ -19,7 +19,7 @@ pub struct Notation {
 }
 
 /// What the numbers of a column show, if points are decimal and if commas are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Evidence {
     /// Whether all can be read so.
     all: [bool; 2],
@@ -50,9 +50,7 @@ pub fn is_number(cell: &str) -> bool {
 impl Evidence {
     pub fn under(heading: &Heading) -> Evidence {
         let has_percent = heading.is_percent || heading.unit.is_some_and(|unit| unit.name.contains('%'));
-        let none = [false; 2];
-        let (all, hundreds, unparted) = ([true; 2], false, false);
-        Evidence { all, decides: none, either: none, hundreds, unparted, has_percent, largest: 0.0 }
+        Evidence { all: [true; 2], has_percent, ..Evidence::default() }
     }
 
     pub fn add(&mut self, cell: &str) {

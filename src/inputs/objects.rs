@@ -77,9 +77,13 @@ impl List<'_> {
         let Some(at) = list.column(Role::Storey) else { return Ok(list) };
         let open = grid.rows().filter(|row| list.cell(*row, Role::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
-        let heading = grid.headings[at].text.clone();
         let found = defaults.ground_floor.map_or_else(|| floors::ground_floor(&storeys), Ok);
-        list.ground_floor = found.map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
+        list.ground_floor = found.map_err(|lowest| {
+            let found = format!("column '{}', of which the lowest floor is {lowest}", grid.headings[at].text);
+            let expected =
+                "--ground-floor 1 if the ground floor is called 1, --ground-floor 0 if 1 is above it";
+            InputError::unexpected(found, expected)
+        })?;
         Ok(list)
     }
 
@@ -88,8 +92,9 @@ impl List<'_> {
         let numbers = self.grid.numbers(at)?;
         let go_up = numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
         let is_sure = go_up && (numbers.len() > 1 || numbers == [1.0]);
-        let heading = self.grid.headings[at].text.clone();
-        if is_sure { Ok(Role::Kept) } else { Err(InputError::Number { heading }) }
+        let found = format!("column '{}', which counts objects or names them", self.grid.headings[at].text);
+        let expected = "--columns count=HEADING or name=HEADING, or --ignore HEADING";
+        if is_sure { Ok(Role::Kept) } else { Err(InputError::unexpected(found, expected)) }
     }
 
     /// Checks the headings, the lengths below each, and remarks on units.
@@ -319,6 +324,9 @@ impl List<'_> {
             object.floor = Some(format!("floor {number}{of_all}"));
         }
         let place = &mut object.place;
+        if place.level.is_some() && all.is_some() {
+            return Err(format!("floor '{cell}' and a level: leave one out (--ignore)"));
+        }
         let known = Place { period: place.period.or(self.defaults.place.period), ..*place };
         if known.level.is_some() && known.period.is_some() {
             return Ok(());

@@ -127,7 +127,7 @@ fn floors_are_read_as_people_write_them() {
 fn the_ground_floor_is_asked_for_where_nothing_tells() {
     let list = "name,width,height,Floor,Storeys\na,0.5,2,1,5\nb,0.5,2,3,5\n";
     let asked = format!("{:?}", read(list, "", None).unwrap_err());
-    assert!(asked.contains("lowest: 1"), "{asked}");
+    assert!(asked.contains("floor is 1"), "{asked}");
     for (ground_floor, level) in [(1, 0.4), (0, 0.6)] {
         let objects = read(list, "", Some(ground_floor)).unwrap();
         assert!((objects[1].place.level.unwrap() - level).abs() < 1e-12);
@@ -140,6 +140,7 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,Floor\na,0.5,2,3\nb,0.5,2,0\n", "Storeys"),
         ("name,width,height,Floor,Storeys\na,0.5,2,7,5\nb,0.5,2,0,5\n", "5 storeys"),
         ("name,width,height,Floor,Storeys\na,0.5,2,mezzanine,5\n", "mezzanine"),
+        ("name,width,height,Floor,Storeys,Level\na,0.5,2,3,5,0.2\nb,0.5,2,0,5,0\n", "a level"),
         ("name,width,height,Floor,Storeys,Building\na,0.5,2,3,5,jelly\nb,0.5,2,0,5,\n", "jelly"),
         ("name,width,height,centre of mass (cm)\na,0.5,2,80\n", "centre of mass"),
         ("name,width,height,friction class\na,0.5,2,C2\n", "friction class"),
@@ -207,7 +208,7 @@ fn lengths_that_no_list_has_are_refused_with_what_is_meant() {
         ("name,width,height,unit\na,9,30,in\nb,50,200,cm\n", "(in)"),
         ("Name;Breite;Höhe\nMaße in Zentimeter\nVase;3;9\n", "Zentimeter"),
         ("name,width,height,CoG (% of height)\na,0.5,2,30\n", "%"),
-        ("name,Number,width,height\na,101,0.5,2\nb,105,0.5,2\n", "--columns count=Number"),
+        ("name,Number,width,height\na,101,0.5,2\nb,105,0.5,2\n", "'Number'"),
     ] {
         let refusal = read(list, "", None).unwrap_err().to_string();
         assert!(refusal.contains(named), "{named}: {refusal}");

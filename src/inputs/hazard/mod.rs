@@ -76,10 +76,7 @@ impl Curve {
         points.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         let is_wrong = |pair: &&[(f64, f64, usize)]| pair[1].0 == pair[0].0 || pair[1].1 > pair[0].1;
         if let Some(pair) = points.windows(2).find(is_wrong) {
-            let expected = match pair[0].0 == pair[1].0 {
-                true => "one row of each intensity",
-                false => "motions no more frequent than weaker ones",
-            };
+            let expected = "one row of each intensity, and none more frequent than weaker ones";
             return Err(grid.refusal(pair[1].2, rates, expected));
         }
         let known = points.into_iter().map(|(value, rate, _)| (value, rate));
