@@ -373,5 +373,7 @@ impl List<'_> {
         anchors
             .find_map(|(heading, cell)| held_by(heading, cell))
             .or_else(|| cells(Role::Kept).find_map(open))
+            // A name may be F2.
+            .or_else(|| cells(Role::Name).filter(|(_, name)| !is_on_floors(name)).find_map(open))
     }
 }

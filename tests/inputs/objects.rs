@@ -145,7 +145,7 @@ fn what_is_not_understood_of_an_object_is_a_reason_for_no_answer() {
         ("name,width,height,centre of mass (cm)\na,0.5,2,80\n", "centre of mass"),
         ("name,width,height,friction class\na,0.5,2,C2\n", "friction class"),
         ("name,width,height,Not anchored\na,0.5,2,x\n", "Not anchored"),
-        ("name,width,height,Unrestrained\na,0.5,2,yes\n", "Unrestrained"),
+        ("name,width,height\nCabinet on castors,0.5,2\n", "castors"),
         ("name,width,height,Qty (pairs)\na,0.5,2,2\n", "Qty (pairs)"),
         ("name,width,height,Location\na,0.5,2,3rd floor east\nb,0.5,2,hall\n", "3rd floor east"),
         ("name,width,height\nStorey 3 - laboratories\na,0.5,2\n", "Storey 3"),
