@@ -4,8 +4,8 @@ use rockfrag_core::hazard::{HazardError, MatchError};
 
 /// Of numbers that may be read in two ways.
 pub(super) const THOUSANDS: &str = "1029 or 1.0290: a sign may be decimal, or between thousands";
-pub(super) const PERCENT: &str = "the sheet saved as CSV, or 0.1 for 10 % under a heading without %: the workbook \
-                                  may show a share as percent";
+pub(super) const PERCENT: &str = "the sheet saved as CSV, or 0.1 for 10 % under a heading without %: the \
+                                  workbook may show a share as percent";
 
 pub type Result<T, E = InputError> = std::result::Result<T, E>;
 

@@ -130,8 +130,8 @@ impl Told {
         })
     }
 
-    /// The measure of a curve whose headings name this one, or none; an acceleration of which nothing is said is
-    /// PGA.
+    /// The measure of a curve whose headings name this one, or none; an acceleration of which nothing is said
+    /// is PGA.
     pub fn measure(&self, named: Option<Imt>) -> Result<Imt> {
         match (named, &self.measures[..]) {
             (None, [imt]) => Ok(*imt),
