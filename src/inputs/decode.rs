@@ -1,4 +1,4 @@
-//! Decodes text: UTF-8, UTF-16, Shift JIS, Windows-1252, and others where there is enough of it to tell.
+//! Decodes text: UTF-8, UTF-16, Shift JIS and Windows-1252.
 
 use std::borrow::Cow;
 
@@ -16,11 +16,8 @@ const OTHERS: [(&[&[u8]], &str); 4] = [
 ];
 /// Signs of numbers and units, which do not tell the language.
 const SIGNS: &str = "\u{b0}\u{b1}\u{b2}\u{b3}\u{b5}\u{b7}\u{bd}\u{d7}\u{d8}";
-/// More letters beyond ASCII tell apart encodings of scripts other than Latin: none of thousands of short
-/// lists in twenty encodings was mistaken.
-const TELLING: usize = 40;
 
-/// Decodes a text: its lines end in `\n`; typographic blanks, minus signs and wide letters become ASCII.
+/// Decodes a text; its lines end in `\n`.
 pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
     let is_other = |(starts, _): &&(&[&[u8]], _)| starts.iter().any(|start| bytes.starts_with(start));
     if let Some((_, found)) = OTHERS.iter().find(is_other) {
@@ -28,24 +25,15 @@ pub fn decode(bytes: &[u8]) -> Result<Cow<'_, str>> {
     }
     let (text, ..) = encoding(bytes)?.decode(bytes);
     match (text.trim_start().chars().next(), text.trim_end().chars().next_back()) {
-        (Some('<'), Some('>')) => return Err(InputError::NoTable { found: "a web page or XML" }),
-        (Some('{'), Some('}')) | (Some('['), Some(']')) => return Err(InputError::NoTable { found: "JSON" }),
+        (Some('<'), Some('>')) => {
+            return Err(InputError::NoTable { found: "XML: a web page, or OpenQuake's NRML" });
+        }
+        (Some('{'), Some('}')) | (Some('['), Some(']')) => {
+            return Err(InputError::NoTable { found: "JSON, as of a web service" });
+        }
         _ => {}
     }
-    let text = if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text };
-    Ok(if text.is_ascii() { text } else { Cow::Owned(text.chars().map(plain).collect()) })
-}
-
-/// A typographic blank, minus sign or wide letter in ASCII.
-pub(super) fn plain(sign: char) -> char {
-    match sign {
-        '\u{2212}' => '-',
-        '\u{a0}' | '\u{2009}' | '\u{202f}' | '\u{3000}' => ' ',
-        '\u{2019}' => '\'',
-        // Wide forms of ASCII.
-        '\u{ff01}'..='\u{ff5e}' => char::from((u32::from(sign) - 0xfee0) as u8),
-        _ => sign,
-    }
+    Ok(if text.contains('\r') { text.replace("\r\n", "\n").replace('\r', "\n").into() } else { text })
 }
 
 /// Finds the encoding by a byte-order mark, by null bytes in every other place, by what is valid, else by
@@ -75,9 +63,7 @@ fn encoding(bytes: &[u8]) -> Result<&'static Encoding> {
     if western.chars().all(|sign| sign.is_ascii() || SIGNS.contains(sign)) {
         return Ok(WINDOWS_1252);
     }
-    let letters = read.chars().filter(|sign| sign.is_alphabetic() && !sign.is_ascii());
-    let is_latin = letters.clone().all(|letter| letter < '\u{250}');
-    if guess == SHIFT_JIS || read == western || !is_latin && letters.count() > TELLING {
+    if guess == SHIFT_JIS || read == western {
         return Ok(guess);
     }
     let found = format!("a text that may be {}, or not", guess.name());

@@ -2,9 +2,10 @@ use std::path::Path;
 
 use rockfrag_core::hazard::{HazardError, MatchError};
 
-pub(super) const THOUSANDS: &str = "decimal, or between thousands? Write 1029 or 1.0290";
-pub(super) const PERCENT: &str = "percent, or a share that the workbook shows as percent? Save the sheet as \
-                                  CSV, or write 0.1 for 10 % under a heading without %";
+/// Of numbers that may be read in two ways.
+pub(super) const THOUSANDS: &str = "1029 or 1.0290: a sign may be decimal, or between thousands";
+pub(super) const PERCENT: &str = "the sheet saved as CSV, or 0.1 for 10 % under a heading without %: the \
+                                  workbook may show a share as percent";
 
 pub type Result<T, E = InputError> = std::result::Result<T, E>;
 
@@ -27,26 +28,12 @@ pub enum InputError {
     Cells { line: usize, found: usize, expected: usize },
     #[error("line {line}, column '{heading}': '{found}'; expected {expected}")]
     Cell { line: usize, heading: String, found: String, expected: String },
-    #[error("line {line}, column '{heading}': '{found}': {question}")]
-    Unclear { line: usize, heading: String, found: String, question: &'static str },
     #[error("'{heading}' and '{unit}' contradict each other: a unit, years or a measure")]
     Units { heading: String, unit: String },
-    #[error("heading '{heading}' is not understood; expected {expected}; {found}")]
-    Heading { heading: String, expected: &'static str, found: String },
     #[error("{found}; expected {expected}")]
     Unexpected { found: String, expected: &'static str },
     #[error("line {line}: no {field}; expected {expected}")]
     Missing { line: usize, field: &'static str, expected: &'static str },
-    #[error(
-        "column '{heading}': the lowest floor is {lowest}: --ground-floor 1 if the ground floor is called 1, \
-         --ground-floor 0 if 1 is the floor above it"
-    )]
-    GroundFloor { heading: String, lowest: u32 },
-    #[error(
-        "column '{heading}': does it count objects or name them? --columns count={heading} or name={heading}, or \
-         --ignore {heading}"
-    )]
-    Number { heading: String },
     #[error("no heading '{heading}' in any file; found {seen}")]
     Renamed { heading: String, seen: String },
     #[error(transparent)]
@@ -89,14 +76,6 @@ impl InputError {
     pub(super) fn value(line: usize, field: &'static str, text: &str, expected: &'static str) -> InputError {
         let found = text.trim().chars().filter(|c| !c.is_control()).take(60).collect();
         InputError::Value { line, field, found, expected }
-    }
-
-    /// The error of a heading that is not understood, if there is one, among those found.
-    pub(super) fn not_understood(heading: Option<&str>, expected: &'static str, found: String) -> InputError {
-        match heading.map(str::to_string) {
-            Some(heading) => InputError::Heading { heading, expected, found },
-            None => InputError::Unexpected { found, expected },
-        }
     }
 
     pub(super) fn damaged(error: impl ToString) -> InputError {

@@ -2,7 +2,7 @@
 
 use rockfrag_core::object::Place;
 
-use super::words::{is_one_of, joined, means, synonyms};
+use super::words::{is_one_of, joined, means, normal, synonyms};
 
 const STOREY_M: f64 = 3.5;
 /// Standard deviation of ln(period) of a building of a known type.
@@ -25,6 +25,7 @@ impl Storey {
     /// stands beside: `2-3`, `1.5`.
     pub fn parse(cell: &str) -> Option<Storey> {
         const BESIDE: &str = " .-_#():";
+        let cell = &*normal(cell);
         let names = [("ground", Storey::Ground), ("roof", Storey::Roof), ("basement", Storey::Basement)];
         if let Some((_, storey)) = names.into_iter().find(|(meaning, _)| means(cell, meaning)) {
             return Some(storey);
@@ -74,12 +75,8 @@ impl Storey {
     }
 }
 
-pub fn is_ordinal(word: &str) -> bool {
-    ordinal(word).is_some()
-}
-
 /// The number of an ordinal, by the beginning of its word: third, terzo, dritter.
-fn ordinal(word: &str) -> Option<f64> {
+pub fn ordinal(word: &str) -> Option<f64> {
     let of_number = |words: &str| words.split('|').any(|start| word.starts_with(start));
     synonyms("ordinal").position(of_number).map(|at| (at + 1) as f64)
 }

@@ -13,6 +13,7 @@ use super::heading::{Heading, number_with_unit};
 use super::layout::{Layout, RawRow, RowRole, layout};
 use super::numbers::{self, Evidence, Notation, is_missing, is_number};
 use super::reading::{ColumnReading, Meaning, Reading};
+use super::remarks::is_unread;
 use super::separated;
 use super::unpack::unpack_one;
 use super::words::{means, synonyms};
@@ -26,10 +27,9 @@ pub const SECTION: &str = "Section";
 /// Numbers below this stand for what is not known.
 const UNKNOWN: f64 = -99.0;
 
-/// Rows of cells under headings.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Grid {
-    /// Comments, and lines above, below and between the rows.
+    /// Comments, lines above, below and between the rows, and the name of the sheet.
     pub notes: Vec<String>,
     /// Other lines that are no rows, and what they were taken for.
     others: Vec<String>,
@@ -70,8 +70,11 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            let Sheet { first_line, rows, repeated, source } = workbook::read(&bytes, sheet)?;
-            return Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated);
+            let Sheet { first_line, rows, repeated, source, name } = workbook::read(&bytes, sheet)?;
+            let mut grid = Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated)?;
+            // As a comment: most names say nothing.
+            grid.notes.push(format!("# {name}"));
+            return Ok(grid);
         }
         let (rows, source) = separated::rows(&decode(&bytes)?)?;
         Grid::new(rows, source, &HashSet::new())
@@ -93,9 +96,7 @@ impl Grid {
         for (row, role) in rows.into_iter().zip(roles) {
             match role {
                 RowRole::Head if grid.rows.is_empty() => {}
-                RowRole::Head => {
-                    grid.others.push(format!("line {}: headings again, or a drawn line", row.line))
-                }
+                RowRole::Head => grid.others.push(format!("line {}: headings again", row.line)),
                 RowRole::Remark => grid.notes.push(row.text(source)),
                 RowRole::Section => {
                     section = row.text(source);
@@ -204,14 +205,14 @@ impl Grid {
         let (cell, notation) = (self.cell(row, column), self.notations[column]);
         let has_sign = cell.ends_with('%');
         let size = if self.is_percent(row, column) && !has_sign { 0.01 } else { 1.0 };
-        let question = match notation.number(cell) {
+        let expected = match notation.number(cell) {
             Some(_) if notation.may_be_shares && !has_sign => PERCENT,
             Some(number) => return Ok(size * number),
-            None if notation.is_unclear(cell) => THOUSANDS,
-            None => return Err(self.refusal(row, column, "a number")),
+            // The table does not tell which sign is decimal.
+            None if is_number(cell) => THOUSANDS,
+            None => "a number",
         };
-        let (line, heading, found) = (self.lines[row], self.name_of(column), cell.to_string());
-        Err(InputError::Unclear { line, heading, found, question })
+        Err(self.refusal(row, column, expected))
     }
 
     pub fn numbers(&self, column: usize) -> Result<Vec<f64>> {
@@ -249,7 +250,12 @@ impl Grid {
         InputError::Cell { line, heading, found, expected: expected.into() }
     }
 
-    /// The headings, for messages.
+    pub fn not_understood(&self, headings: &[&str], expected: &'static str) -> InputError {
+        let is_named = self.has_headings && !headings.is_empty();
+        let named = || format!("heading '{}' is not understood", headings.join(","));
+        InputError::unexpected(if is_named { named() } else { self.found() }, expected)
+    }
+
     pub fn found(&self) -> String {
         let texts: Vec<&str> = self.headings.iter().map(|heading| heading.text.as_str()).collect();
         match self.has_headings {
@@ -281,7 +287,7 @@ impl Grid {
         Reading {
             file: path.display().to_string(),
             rows: self.lines.len(),
-            unread: Vec::new(),
+            unread: self.notes.iter().filter(|note| is_unread(note)).cloned().collect(),
             columns: columns.chain(self.ignored.iter().cloned()).collect(),
             others: [self.others.clone(), self.notes.iter().map(|note| format!("remark: {note}")).collect()]
                 .concat(),

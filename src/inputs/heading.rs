@@ -1,11 +1,14 @@
 //! Headings: names and units.
 
-use rockfrag_core::units::{Quantity, Unit};
+use rockfrag_core::units::{Quantity::*, Unit};
 
 use super::words::{are_known, joined, normal};
 
 /// The longest text that may say a unit: a search for one in every part of a long line would not end.
 const LONGEST: usize = 100;
+
+/// Signs before a factor.
+const TIMES: [char; 4] = ['x', 'X', '\u{d7}', '*'];
 
 #[derive(Debug, Clone, PartialEq)]
 pub struct Heading {
@@ -83,7 +86,6 @@ impl Heading {
     }
 }
 
-/// A number and the unit behind it.
 pub fn number_with_unit(cell: &str) -> Option<(&str, Unit)> {
     let end = cell.trim_end_matches(|sign: char| !sign.is_ascii_digit() && sign != '.').len();
     if end == 0 || end == cell.len() {
@@ -92,8 +94,7 @@ pub fn number_with_unit(cell: &str) -> Option<(&str, Unit)> {
     Some((cell[..end].trim_end(), Unit::parse(&normal(&cell[end..]))?))
 }
 
-/// The rest of a heading, and what brackets in it say: the last that hold a unit alone, else those that
-/// explain one, such as `(g = 9.81 m/s2)`; no unit where a number stands before it.
+/// The rest of a heading, and what brackets in it say: the last that hold a unit alone, else those with one.
 fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
     let mut explaining = None;
     for (start, sign) in text.char_indices().rev().filter(|(at, sign)| matches!(sign, '(' | '[') && *at > 0) {
@@ -102,7 +103,7 @@ fn in_brackets(text: &str) -> Option<(String, Option<Unit>)> {
         let inside = Some(text[start + 1..end].trim()).filter(|inside| inside.len() <= LONGEST);
         let bare = || text[..start].to_string() + " " + text.get(end + 1..).unwrap_or_default();
         match (inside.and_then(Unit::parse), inside.and_then(explained)) {
-            (Some(unit), _) => return Some((bare(), Some(unit))),
+            (Some(unit), _) => return Some((bare(), Some(unit).filter(|_| !is_factor(text.get(end + 1..))))),
             (None, Some(unit)) => explaining = explaining.or_else(|| Some((bare(), unit))),
             (None, None) => {}
         }
@@ -126,28 +127,32 @@ fn at_end(text: &str) -> Option<(String, Option<Unit>)> {
     });
     ends.into_iter().find_map(|(at, start)| {
         let end = text[start..].trim_matches(['(', ')', '[', ']', ' ']);
-        let is_told = end.contains('=') || end.starts_with(['x', 'X', '\u{d7}', '*']);
+        let is_told = end.contains('=') || end.starts_with(TIMES);
         let unit = Unit::parse(end.strip_prefix("in ").unwrap_or(end));
         let said = unit.map(Some).or_else(|| explained(end).filter(|_| is_told));
         Some((text[..at].to_string(), said?))
     })
 }
 
-/// What a text says of a unit: `g = 9.81 m/s2`, `gravity, 1g = 980.5 cm/s/s`, `in g`, `x10 m/s2`.
+/// Whether a text is a factor: ` x 10`.
+fn is_factor(text: Option<&str>) -> bool {
+    let text = text.unwrap_or_default().trim();
+    text.starts_with(TIMES) && text.ends_with(|sign: char| sign.is_ascii_digit())
+}
+
+/// What a text says of a unit: `in g`; none where a number stands beside it: `x10 m/s2`, `g = 9.81 m/s2`.
 fn explained(text: &str) -> Option<Option<Unit>> {
-    if let Some((left, _)) = text.split_once('=') {
-        let mut words = left.split([' ', ',', ';']).filter(|word| !matches!(*word, "" | "in" | "1"));
-        let unit = words.find_map(|word| Unit::parse(word.strip_prefix('1').unwrap_or(word)));
-        return unit.filter(|unit| unit.quantity != Quantity::Time).map(Some);
-    }
     let words = text.trim_start_matches("units of ").trim_start_matches("unit: ").trim_start_matches("in ");
     if let Some(unit) = Unit::parse(words) {
         return Some(Some(unit));
     }
-    let unit =
-        text.trim_start_matches(|sign: char| sign.is_ascii_digit() || "xX\u{d7}*.^+-eE/ ".contains(sign));
-    let factor = text[..text.len() - unit.len()].trim();
-    let known = Unit::parse(unit).filter(|_| factor.contains(|sign: char| sign.is_ascii_digit()))?;
-    let is_size = matches!(known.quantity, Quantity::Acceleration | Quantity::Velocity | Quantity::Length);
-    is_size.then_some(Some(known).filter(|_| factor == "1"))
+    let is_digit = |sign: char| sign.is_ascii_digit();
+    let (left, is_told) =
+        text.split_once('=').map_or((text, text.contains(is_digit)), |(left, _)| (left, true));
+    let is_size = |word: &str| {
+        let unit =
+            Unit::parse(word.trim_start_matches(|sign: char| is_digit(sign) || "x\u{d7}*.".contains(sign)));
+        unit.is_some_and(|unit| matches!(unit.quantity, Acceleration | Velocity | Length))
+    };
+    (is_told && left.split([' ', ',', ';']).any(is_size)).then_some(None)
 }

@@ -20,11 +20,11 @@ use crate::table::dictionary;
 pub fn read(path: &Path, reader: &mut Reader) -> Result<Vec<(String, ArrayRef)>> {
     let read = reader.read(path).and_then(|grid| {
         expect_intensities(&grid)?;
-        Told::new(&grid)?.expect_same(&grid.headings)?;
+        Told::new(&grid, path)?.expect_same(&grid.headings)?;
         let columns = (0..grid.headings.len()).map(|at| column(&grid, at)).collect::<Result<Vec<_>>>()?;
         let (columns, meanings): (Vec<_>, Vec<Meaning>) = columns.into_iter().unzip();
         expect_understood(&grid, &meanings)?;
-        reader.tell(path, &grid, meanings, Vec::new());
+        reader.tell(path, &grid, meanings);
         Ok(columns)
     });
     read.map_err(|error| error.in_file(path))
@@ -41,7 +41,8 @@ fn expect_intensities(grid: &Grid) -> Result<()> {
         let found = format!("{} rows under {}", grid.lines.len(), grid.found());
         return Err(InputError::unexpected(found, "intensities under pga_g and pgv_m_s"));
     }
-    if let Some(column) = grid.headings.iter().position(|heading| heading.name == "component")
+    let is_direction = |name: &str| ["comp", "komp", "dir", "chan"].iter().any(|of| name.starts_with(of));
+    if let Some(column) = grid.headings.iter().position(|heading| is_direction(&heading.name))
         && let Some(row) = grid.rows().find(|row| is_vertical(grid.cell(*row, column)))
     {
         return Err(grid.refusal(row, column, "horizontal components alone"));
@@ -118,7 +119,6 @@ pub fn column_of_peak<'a>(names: &[&'a str], wanted: Peak) -> Result<(&'a str, f
     }
 }
 
-/// Refuses a row of totals or means.
 pub fn expect_motions_alone(grid: &Grid) -> Result<()> {
     let mut cells = grid.rows().flat_map(|row| (0..grid.headings.len()).map(move |at| (row, at)));
     let total = cells.find(|(row, at)| {

@@ -9,7 +9,7 @@ use super::error::{InputError, Result};
 use super::grid::Source;
 use super::heading::Heading;
 use super::numbers::{is_missing, is_number};
-use super::words::{are_known, joined};
+use super::words::{are_known, joined, normal};
 
 /// Rows at the end of a table that show how it is written.
 pub const SHOWN: usize = 400;
@@ -37,7 +37,6 @@ impl RawRow {
         filled.all(|(_, cell)| cell == first && source == Source::Xlsx).then_some(first)
     }
 
-    /// What it says, as a remark.
     pub fn text(&self, source: Source) -> String {
         let filled: Vec<&str> = self.filled().map(|(_, cell)| cell).collect();
         self.alone(source)
@@ -49,10 +48,9 @@ impl RawRow {
     }
 }
 
-/// What a row is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RowRole {
-    /// Headings, their units, or a line drawn with signs.
+    /// Headings, or their units.
     Head,
     /// A comment, a title, or what else stands above, below or between rows.
     Remark,
@@ -67,7 +65,6 @@ pub struct Layout {
     pub roles: Vec<RowRole>,
 }
 
-/// Finds the headings and what each row is.
 pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     let is_number_column = number_columns(rows);
     let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
@@ -92,7 +89,6 @@ pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     for (at, row) in rows.iter().enumerate().skip(end) {
         let is_named = is_number_column.first() == Some(&false) && headings.len() > 1;
         roles[at] = match row.alone(source) {
-            _ if is_ruler(&row.cells) => RowRole::Head,
             // An object may be called #2.
             _ if row.is_comment && source == Source::Blanks && at < start => RowRole::Remark,
             alone if row.is_comment => {
@@ -179,7 +175,6 @@ fn joined_rows(rows: &[RawRow], source: Source) -> Vec<Heading> {
     columns.into_iter().map(Heading::of_rows).collect()
 }
 
-/// Whether a row has the headings again.
 fn repeats(row: &RawRow, headings: &[Heading]) -> bool {
     let mut filled = row.filled().peekable();
     let is_same = |(at, cell): (usize, &str)| {
@@ -269,18 +264,12 @@ fn is_word(cell: &str) -> bool {
 fn is_units(row: &RawRow) -> bool {
     const OTHERS: [&str; 9] = ["", "-", "a", "1/yr", "1/year", "1/a", "1/years", "text", "yes/no"];
     let cells = row.cells.iter();
-    let cells = cells.map(|cell| uncommented(cell).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
+    let cells =
+        cells.map(|cell| normal(uncommented(cell)).trim_matches(['(', ')', '[', ']', ' ']).to_lowercase());
     let mut units = cells.filter(|cell| !OTHERS.contains(&cell.as_str())).peekable();
     units.peek().is_some() && units.all(|cell| cell == "%" || Unit::parse(&cell).is_some())
 }
 
-/// Whether a row is a line drawn with signs.
-fn is_ruler(cells: &StringRecord) -> bool {
-    let mut cells = cells.iter().filter(|cell| !cell.is_empty());
-    cells.all(|cell| cell.len() > 1 && cell.chars().all(|sign| "-=_+|:".contains(sign)))
-}
-
-/// Headings with the units in a row below.
 fn with_units(headings: &[Heading], units: &RawRow) -> Result<Vec<Heading>> {
     let with_unit = |(at, heading): (usize, &Heading)| match units.cells.get(at).unwrap_or_default() {
         "" | "-" => Ok(heading.clone()),

@@ -19,7 +19,7 @@ pub struct Notation {
 }
 
 /// What the numbers of a column show, if points are decimal and if commas are.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Evidence {
     /// Whether all can be read so.
     all: [bool; 2],
@@ -50,9 +50,7 @@ pub fn is_number(cell: &str) -> bool {
 impl Evidence {
     pub fn under(heading: &Heading) -> Evidence {
         let has_percent = heading.is_percent || heading.unit.is_some_and(|unit| unit.name.contains('%'));
-        let none = [false; 2];
-        let (all, hundreds, unparted) = ([true; 2], false, false);
-        Evidence { all, decides: none, either: none, hundreds, unparted, has_percent, largest: 0.0 }
+        Evidence { all: [true; 2], has_percent, ..Evidence::default() }
     }
 
     pub fn add(&mut self, cell: &str) {
@@ -116,18 +114,12 @@ impl Notation {
             |decimal| read(cell, decimal),
         )
     }
-
-    /// Whether a cell is a number but for a sign that may be decimal or not.
-    pub fn is_unclear(self, cell: &str) -> bool {
-        self.number(cell).is_none() && self.decimal.is_none() && is_number(cell)
-    }
 }
 
 fn share(cell: &str) -> (&str, f64) {
     cell.strip_suffix('%').map_or((cell, 1.0), |share| (share.trim_end(), 0.01))
 }
 
-/// Reads a number with this decimal sign.
 fn read(cell: &str, decimal: char) -> Option<f64> {
     let cell = normal_number(cell)?;
     let (text, size) = share(&cell);

@@ -11,14 +11,13 @@ use rockfrag_core::warning::{Warning, Warnings};
 use super::floors::{self, Building, Storey};
 use super::remarks::{held_by, is_on_anchors, is_on_floors, unit_of_remark};
 use super::roles::{Role, meaning};
-use super::words::{is_one_of, joined, means};
+use super::words::means;
 use super::{Grid, InputError, Meaning, Reader, Result};
 use crate::number::rounded;
 
 /// Without one of these, in a cell that is not empty, there is no object.
 const NEEDED: [Field; 4] = [Field::Width, Field::Height, Field::P, Field::Alpha];
 
-/// What a call says of all rows of a list.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct ListDefaults {
     pub ground_floor: Option<u32>,
@@ -46,7 +45,7 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
             [name, first].iter().any(|cell| means(cell, "total"))
         });
         let list = List::new(&grid, defaults)?;
-        reader.tell(path, &grid, list.meanings(), list.unread());
+        reader.tell(path, &grid, list.meanings());
         reader.warnings.extend(list.doubts());
         Ok(list.objects())
     };
@@ -65,17 +64,11 @@ impl List<'_> {
         let mut columns: Vec<Role> = grid.headings.iter().map(meaning).collect();
         grid.about("name").into_iter().for_each(|at| columns[at] = Role::Name);
         let mut list = List { grid, columns, ground_floor: 0, defaults: *defaults };
-        let has_units = list.column(Role::Unit).is_some_and(|at| {
-            let mut units = grid.rows().filter_map(|row| Unit::parse(grid.cell(row, at)));
-            units.any(|unit| unit.quantity == Quantity::Length)
-        });
         for at in 0..list.columns.len() {
             let is_text = grid.is_text(at);
             list.columns[at] = match list.columns[at] {
                 Role::Number if is_text => Role::Kept,
-                Role::Number => list.count_or_name(at)?,
-                // A ward, perhaps.
-                Role::Unit if !has_units => Role::Kept,
+                Role::Number => list.numbered(at)?,
                 Role::NotUnderstood if is_text => Role::Kept,
                 role => role,
             };
@@ -84,25 +77,24 @@ impl List<'_> {
         let Some(at) = list.column(Role::Storey) else { return Ok(list) };
         let open = grid.rows().filter(|row| list.cell(*row, Role::Known(Field::Level)).is_none());
         let storeys: Vec<Storey> = open.filter_map(|row| Storey::parse(grid.cell(row, at))).collect();
-        let heading = grid.headings[at].text.clone();
         let found = defaults.ground_floor.map_or_else(|| floors::ground_floor(&storeys), Ok);
-        list.ground_floor = found.map_err(|lowest| InputError::GroundFloor { heading, lowest })?;
+        list.ground_floor = found.map_err(|lowest| {
+            let found = format!("column '{}', of which the lowest floor is {lowest}", grid.headings[at].text);
+            let expected =
+                "--ground-floor 1 if the ground floor is called 1, --ground-floor 0 if 1 is above it";
+            InputError::unexpected(found, expected)
+        })?;
         Ok(list)
     }
 
-    /// Numbers count objects if one comes again, and name rows if they go up by one.
-    fn count_or_name(&self, at: usize) -> Result<Role> {
+    /// The role of numbers that name rows if they go up by one, and else may count objects.
+    fn numbered(&self, at: usize) -> Result<Role> {
         let numbers = self.grid.numbers(at)?;
-        let mut distinct: Vec<u64> = numbers.iter().map(|number| number.to_bits()).collect();
-        distinct.sort();
-        distinct.dedup();
-        let heading = &self.grid.headings[at].text;
         let go_up = numbers.windows(2).all(|pair| pair[1] == pair[0] + 1.0);
-        match go_up && (numbers.len() > 1 || numbers == [1.0]) {
-            true => Ok(Role::Kept),
-            false if distinct.len() < numbers.len() => Ok(Role::Count),
-            false => Err(InputError::Number { heading: heading.clone() }),
-        }
+        let is_sure = go_up && (numbers.len() > 1 || numbers == [1.0]);
+        let found = format!("column '{}', which counts objects or names them", self.grid.headings[at].text);
+        let expected = "--columns count=HEADING or name=HEADING, or --ignore HEADING";
+        if is_sure { Ok(Role::Kept) } else { Err(InputError::unexpected(found, expected)) }
     }
 
     /// Checks the headings, the lengths below each, and remarks on units.
@@ -110,8 +102,9 @@ impl List<'_> {
         let (grid, expected) = (self.grid, "name, width, depth and height, or p, alpha and eta");
         if [Field::Height, Field::P].iter().all(|field| self.column(Role::Known(*field)).is_none()) {
             let unknown = [Role::NotUnderstood, Role::Unclear, Role::Kept];
-            let mut unknown = unknown.iter().flat_map(|role| self.headings(*role));
-            return Err(InputError::not_understood(unknown.next(), expected, grid.found()));
+            let unknown =
+                unknown.iter().find_map(|role| self.column(*role)).map(|at| &*grid.headings[at].text);
+            return Err(grid.not_understood(unknown.as_slice(), expected));
         }
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
@@ -120,8 +113,12 @@ impl List<'_> {
             grid.headings.iter().zip(&self.columns).filter(|(_, of)| matches!(of, Role::Name | Role::Kept));
         let of_headings = own.filter_map(|(heading, _)| Some((&*heading.text, heading.unit?)));
         let of_lengths = |(_, unit): &(&str, Unit)| unit.quantity == Quantity::Length;
+        let of_units =
+            self.column(Role::Unit).into_iter().flat_map(|at| grid.rows().map(move |row| (row, at)));
+        let of_units =
+            of_units.map(|(row, at)| grid.cell(row, at)).filter_map(|cell| Some((cell, Unit::parse(cell)?)));
         let mut of_remarks = self.remarks().filter_map(|note| Some((note, unit_of_remark(note)?)));
-        let remarked = of_headings.clone().find(of_lengths).or_else(|| of_remarks.next());
+        let remarked = of_headings.chain(of_units).find(of_lengths).or_else(|| of_remarks.next());
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             if matches!(column, Role::Known(_)) && (heading.is_scaled || heading.is_percent) {
                 let found = format!("heading '{}'", heading.text);
@@ -165,23 +162,8 @@ impl List<'_> {
         self.grid.notes.iter().map(String::as_str).chain(beside)
     }
 
-    /// Remarks on what decides, which are not used.
-    fn unread(&self) -> Vec<String> {
-        let is_on_centre = |note: &str| joined(note).split('-').any(|word| is_one_of(word, "centre"));
-        let notes = self.grid.notes.iter();
-        notes
-            .filter(|note| is_on_anchors(note) || is_on_floors(note) || is_on_centre(note))
-            .cloned()
-            .collect()
-    }
-
     fn column(&self, wanted: Role) -> Option<usize> {
         self.columns.iter().position(|column| *column == wanted)
-    }
-
-    fn headings(&self, wanted: Role) -> impl Iterator<Item = &str> {
-        let all = self.grid.headings.iter().zip(&self.columns).filter(move |(_, column)| **column == wanted);
-        all.map(|(heading, _)| heading.text.as_str()).filter(|text| !text.is_empty())
     }
 
     /// What stands in a column, if it says anything.
@@ -246,7 +228,6 @@ impl List<'_> {
         })
     }
 
-    /// What each column says.
     fn meanings(&self) -> Vec<Meaning> {
         let meaning = |role: &Role| match role {
             Role::Kept => Meaning::Kept,
@@ -256,7 +237,6 @@ impl List<'_> {
         self.columns.iter().map(meaning).collect()
     }
 
-    /// What else a row says, in words of its own.
     fn labels(&self, row: usize) -> Vec<(String, String)> {
         let kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
         kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
@@ -269,7 +249,6 @@ impl List<'_> {
         }
     }
 
-    /// Whether a row says on which floor its object stands.
     fn names_floor(&self, row: usize) -> bool {
         self.cell(row, Role::Storey).or(self.cell(row, Role::Known(Field::Level))).is_some()
     }
@@ -311,7 +290,7 @@ impl List<'_> {
             if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
                 continue;
             }
-            let size = fields.first().map_or(Ok(1.0), |field| self.size(row, at, *field))?;
+            let size = fields.first().map_or(Ok(1.0), |field| self.size(at, *field))?;
             let text = match self.grid.number(row, at) {
                 Ok(number) => rounded(size * number).to_string(),
                 // Other fields may be words, or know what is expected.
@@ -327,23 +306,15 @@ impl List<'_> {
         Ok(object)
     }
 
-    /// The size of the unit of a cell in m, s, rad or rad/s: that of its heading, of lengths else that of the
-    /// row.
-    fn size(&self, row: usize, at: usize, field: Field) -> Result<f64, String> {
-        let (heading, quantity) = (&self.grid.headings[at], field.entry().quantity);
-        let cell = self.cell(row, Role::Unit).filter(|_| quantity == Some(Quantity::Length));
-        let own = cell.map(|cell| {
-            let own = Unit::parse(cell).filter(|own| heading.unit.is_none_or(|unit| unit == *own));
-            own.ok_or_else(|| format!("unit '{cell}'; expected that of '{}', or m, cm or mm", heading.text))
-        });
-        match heading.unit.or(own.transpose()?) {
+    /// The size of the unit of a column in m, s, rad or rad/s.
+    fn size(&self, at: usize, field: Field) -> Result<f64, String> {
+        match self.grid.headings[at].unit {
             None => Ok(1.0),
-            Some(unit) if Some(unit.quantity) == quantity => Ok(unit.si),
+            Some(unit) if Some(unit.quantity) == field.entry().quantity => Ok(unit.si),
             Some(unit) => Err(format!("{field} is in {}; expected another unit, or none", unit.name)),
         }
     }
 
-    /// Puts an object on the floor that its row names.
     fn put_on_floor(&self, row: usize, object: &mut Object) -> Result<(), String> {
         let Some(cell) = self.cell(row, Role::Storey) else { return Ok(()) };
         let default = self.defaults.storeys.map(|all| all.to_string());
@@ -353,6 +324,9 @@ impl List<'_> {
             object.floor = Some(format!("floor {number}{of_all}"));
         }
         let place = &mut object.place;
+        if place.level.is_some() && all.is_some() {
+            return Err(format!("floor '{cell}' and a level: leave one out (--ignore)"));
+        }
         let known = Place { period: place.period.or(self.defaults.place.period), ..*place };
         if known.level.is_some() && known.period.is_some() {
             return Ok(());
@@ -399,5 +373,7 @@ impl List<'_> {
         anchors
             .find_map(|(heading, cell)| held_by(heading, cell))
             .or_else(|| cells(Role::Kept).find_map(open))
+            // A name may be F2.
+            .or_else(|| cells(Role::Name).filter(|(_, name)| !is_on_floors(name)).find_map(open))
     }
 }

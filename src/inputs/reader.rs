@@ -12,7 +12,6 @@ use super::hazard::contradict;
 use super::heading::Heading;
 use super::reading::{Meaning, Reading};
 
-/// A column, and its heading in a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Rename {
     pub column: String,
@@ -77,9 +76,9 @@ impl<'a> Reader<'a> {
         Ok(grid)
     }
 
-    /// Keeps how a table was read: the meaning of each of its columns, and remarks that are not used.
-    pub fn tell(&mut self, path: &Path, grid: &Grid, meanings: Vec<Meaning>, unread: Vec<String>) {
-        self.readings.push(Reading { unread, ..grid.reading(path, meanings) });
+    /// Keeps how a table was read: the meaning of each of its columns.
+    pub fn tell(&mut self, path: &Path, grid: &Grid, meanings: Vec<Meaning>) {
+        self.readings.push(grid.reading(path, meanings));
     }
 
     /// The name of a column of a table of others, as it is to be called.
@@ -92,7 +91,6 @@ impl<'a> Reader<'a> {
         self.renames.iter().find(|rename| rename.heading == heading).map(|rename| rename.column.as_str())
     }
 
-    /// Refuses a heading that no file has.
     pub fn expect_used(&self) -> Result<()> {
         let headings = self.renames.iter().map(|rename| &rename.heading).chain(self.ignored);
         let mut unused = headings.filter(|heading| !self.seen.contains(heading));

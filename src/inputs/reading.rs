@@ -5,16 +5,15 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
+use super::words::means;
 use crate::number::listed;
 
 /// Columns that a sentence names.
 const NAMED: usize = 12;
 
-/// How a table was read.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Reading {
     pub file: String,
-    /// Number of rows of data.
     pub rows: usize,
     pub columns: Vec<ColumnReading>,
     /// Remarks on what decides, which are not used.
@@ -37,7 +36,6 @@ pub struct ColumnReading {
     pub last: String,
 }
 
-/// What a column says.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Meaning {
@@ -64,14 +62,16 @@ impl Meaning {
 }
 
 impl Reading {
-    /// Its file, without the folder.
     pub fn name(&self) -> Cow<'_, str> {
         Path::new(&self.file).file_name().unwrap_or(self.file.as_ref()).to_string_lossy()
     }
 
     /// Names the columns and remarks that are not understood, if there are any.
     pub fn gaps(&self) -> Option<String> {
-        let columns = self.columns.iter().filter(|column| column.meaning == Meaning::NotUnderstood);
+        let columns = self.columns.iter().filter(|column| match column.meaning {
+            Meaning::Kept => column.filled > 0 && means(&column.heading, "remark"),
+            _ => column.meaning == Meaning::NotUnderstood,
+        });
         let columns: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
         let unread: Vec<String> = self.unread.iter().map(|remark| format!("'{remark}'")).collect();
         let told =

@@ -5,9 +5,10 @@ use rockfrag_core::units::{Quantity, Unit};
 
 use super::Heading;
 use super::floors::{self, Storey};
+use super::layout::uncommented;
 use super::numbers::is_missing;
 use super::roles::holds;
-use super::words::{is_one_of, joined, means, normal, synonyms};
+use super::words::{are_known, is_one_of, joined, means, normal, synonyms};
 
 pub fn is_on_anchors(text: &str) -> bool {
     joined(text).split('-').any(holds)
@@ -18,9 +19,23 @@ pub fn is_on_floors(text: &str) -> bool {
     let words = joined(text);
     let has = |meaning: &str| words.split('-').any(|word| is_one_of(word, meaning) && word.len() > 2);
     let is_one = matches!(Storey::parse(text), Some(Storey::Number(_) | Storey::Above(_)));
-    let has_number =
-        text.contains(|sign: char| sign.is_ascii_digit()) || words.split('-').any(floors::is_ordinal);
-    has("upper") || has("of-floors") && has_number || is_one && text.contains(char::is_alphabetic)
+    let has_number = text.contains(|sign: char| sign.is_ascii_digit())
+        || words.split('-').any(|word| floors::ordinal(word).is_some());
+    // 3F-201, 2/F
+    let is_floor = |word: &str| {
+        let letters = word.trim_start_matches(|sign: char| sign.is_ascii_digit());
+        letters.len() < word.len() && matches!(letters, "f" | "fl")
+    };
+    has("upper")
+        || (has("of-floors") || has("storeys")) && has_number
+        || is_one && text.contains(char::is_alphabetic)
+        || words.replace("-f", "f").split('-').any(is_floor)
+}
+
+/// Whether a remark is not understood: a title, or a comment on anchors or floors.
+pub fn is_unread(note: &str) -> bool {
+    let is_title = uncommented(note) == note && note.contains(char::is_alphabetic) && !are_known(note);
+    is_title || is_on_anchors(note) || is_on_floors(note)
 }
 
 /// The unit of lengths that a remark names, other than behind a number: all in mm.

@@ -7,7 +7,6 @@ use strum::VariantArray;
 use super::Heading;
 use super::words::{is_one_of, synonyms};
 
-/// What a column of a list says.
 #[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
 #[strum(serialize_all = "lowercase")]
 pub enum Role {
@@ -63,13 +62,13 @@ pub fn meaning(heading: &Heading) -> Role {
     let (centres, others): (Vec<&str>, Vec<&str>) = words.iter().partition(|word| is_one_of(word, "centre"));
     let is_one_thing = |role: &Role| words.iter().all(|word| known(word).as_ref() == Some(role));
     let quantity = heading.unit.map(|unit| unit.quantity);
-    let are_all = |is_one: &dyn Fn(&str) -> bool, other: &str| {
-        words.iter().any(|word| is_one(word))
-            && words.iter().all(|word| is_one(word) || is_one_of(word, other))
+    let are_anchors = || {
+        words.iter().any(|word| holds(word))
+            && words.iter().all(|word| holds(word) || is_one_of(word, "of-anchors"))
     };
     if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
         role
-    } else if are_all(&|word| is_one_of(word, "count"), "of-counts") || quantity == Some(Quantity::Counts) {
+    } else if quantity == Some(Quantity::Counts) {
         Role::Count
     } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
         // In two languages.
@@ -80,7 +79,7 @@ pub fn meaning(heading: &Heading) -> Role {
             Some(Role::Known(Field::CentreOffset)) => Role::Known(Field::CentreOffset),
             _ => Role::Unclear,
         }
-    } else if are_all(&holds, "of-anchors") {
+    } else if are_anchors() {
         Role::Held
     } else if name.is_empty() && heading.text == "#" {
         Role::Number
@@ -96,12 +95,10 @@ pub fn meaning(heading: &Heading) -> Role {
     }
 }
 
-/// Whether a word is of what holds an object.
 pub fn holds(word: &str) -> bool {
     synonyms("holds").any(|start| word.starts_with(start))
 }
 
-/// The role of a heading in these words.
 fn known(name: &str) -> Option<Role> {
     const OTHERS: [(&str, Role); 8] = [
         ("diameter", Role::Diameter),

@@ -7,7 +7,6 @@ use super::grid::Source;
 use super::layout::{RawRow, SHOWN, uncommented};
 use super::numbers::is_number;
 
-/// Finds what separates cells, and the rows.
 pub fn rows(text: &str) -> Result<(Vec<RawRow>, Source)> {
     let text = text.trim_end_matches(['\x1a', '\0', '\n', ' ']);
     let are_between_blanks = are_between_blanks(text);

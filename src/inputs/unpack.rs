@@ -23,12 +23,10 @@ const OTHERS: [(&str, &str); 7] = [
     (".iwa", "a document of Apple's Numbers or Pages"),
 ];
 
-/// A file, or one of an archive.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Member {
     /// Name within an archive; none of a file that is no archive.
     pub name: Option<String>,
-    /// Bytes, unpacked.
     pub bytes: Vec<u8>,
 }
 

@@ -20,7 +20,6 @@ pub fn synonyms(meaning: &str) -> impl Iterator<Item = &'static str> {
     WORDS.get(meaning).into_iter().flatten().copied()
 }
 
-/// Whether a text has a meaning.
 pub fn means(text: &str, meaning: &str) -> bool {
     is_one_of(&joined(text), meaning)
 }
@@ -63,10 +62,17 @@ pub fn normal_number(cell: &str) -> Option<Cow<'_, str>> {
 }
 
 /// Words for a vertical component, in capitals.
-const VERTICAL: [&str; 20] = [
-    "UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VERTICAL", "VRT", "BVRT", "VT", "VRTC", "UPD", "UPDO",
-    "UPWARD", "DOWN", "DOWNWARD", "DWN", "DN",
+const VERTICAL: [&str; 19] = [
+    "UP", "UD", "U-D", "U", "V", "Z", "VER", "VERT", "VRT", "BVRT", "VT", "VRTC", "UPD", "UPDO", "UPWARD",
+    "DOWN", "DOWNWARD", "DWN", "DN",
 ];
+
+/// Whether a text has a word for vertical, in whatever language, and none for horizontal.
+pub fn says_vertical(text: &str) -> bool {
+    let text = joined(text);
+    let has = |start: &str| text.split('-').any(|word| word.starts_with(start));
+    (has("vertical") || has("vertikal")) && !has("horiz") && !has("orizz")
+}
 
 /// Whether the name of a component is that of a vertical one: a word, alone, numbered (UD2) or after the
 /// station (CHY101-V), or the last letter of a channel code, as in HNZ.
@@ -81,5 +87,5 @@ pub fn is_vertical(component: &str) -> bool {
             || VERTICAL.contains(&last)
             || (numbered.len() > 1 || numbered == "V") && VERTICAL.contains(&numbered)
     };
-    name.len() == 3 && name.ends_with('Z') || words.any(is_word)
+    name.len() == 3 && name.ends_with('Z') || says_vertical(component) || words.any(is_word)
 }

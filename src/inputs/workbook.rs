@@ -1,4 +1,4 @@
-//! Sheets of workbooks: .xlsx, .xls, .xlsb and .ods.
+//! Sheets of workbooks: .xlsx, .xls and .ods.
 
 use std::collections::{HashMap, HashSet};
 use std::io::Cursor;
@@ -26,6 +26,7 @@ pub struct Sheet {
     /// Lines and columns of cells that are merged over rows.
     pub repeated: HashSet<(usize, usize)>,
     pub source: Source,
+    pub name: String,
 }
 
 /// Reads the sheet with this name, or the only visible one that has any cells.
@@ -50,14 +51,15 @@ fn find(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
         [(name, cells)] => {
             let mut cells = std::mem::take(cells);
             if let Sheets::Ods(_) = workbook {
-                expect_no_merged_rows(bytes, name)?;
+                expect_no_merged_rows(bytes)?;
             }
             let repeated = repeat_merged(&mut workbook, name, &mut cells)?;
             let rows = in_range(cells)?;
             let (line, column) = rows.start().unwrap_or_default();
             let repeated = repeated.into_iter().map(|(row, at)| (row as usize + 1, (at - column) as usize));
             let source = if matches!(workbook, Sheets::Xlsx(_)) { Source::Xlsx } else { Source::Workbook };
-            Ok(Sheet { first_line: line as usize + 1, rows, repeated: repeated.collect(), source })
+            let (first_line, repeated, name) = (line as usize + 1, repeated.collect(), name.clone());
+            Ok(Sheet { first_line, rows, repeated, source, name })
         }
         [] if name.is_none() => Err(InputError::unexpected("an empty workbook", "a table")),
         [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
@@ -95,12 +97,11 @@ fn repeat_merged(
 }
 
 /// Refuses cells of an .ods that are merged over rows: its reader leaves all but the first empty.
-fn expect_no_merged_rows(bytes: &[u8], sheet: &str) -> Result<()> {
+fn expect_no_merged_rows(bytes: &[u8]) -> Result<()> {
     let mut archive = ZipArchive::new(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let content = archive.by_name("content.xml").map_err(InputError::damaged)?;
     let content = std::io::read_to_string(content).map_err(InputError::damaged)?;
-    let named = content.split("table:name=\"").find(|part| part.starts_with(&format!("{sheet}\"")));
-    let mut spans = named.unwrap_or_default().split("number-rows-spanned=\"").skip(1);
+    let mut spans = content.split("number-rows-spanned=\"").skip(1);
     if spans.any(|span| !span.starts_with("1\"")) {
         let expected = "a sheet saved as .xlsx or CSV: of .ods the others are taken as empty";
         return Err(InputError::unexpected("cells merged over rows", expected));
@@ -120,18 +121,11 @@ fn expect_few_announced(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-/// The cells of a sheet that have a text.
 fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
     let mut cells = Vec::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
-        Sheets::Xlsb(workbook) => {
-            let mut reader = workbook.worksheet_cells_reader(sheet).map_err(InputError::damaged)?;
-            while let Some(cell) = reader.next_cell().map_err(InputError::damaged)? {
-                cells.push(Cell::new(cell.get_position(), text(&cell.get_value().clone().into(), None)));
-                expect_few_cells(cells.len())?;
-            }
-        }
+        Sheets::Xlsb(_) => return Err(InputError::NoTable { found: "a binary workbook" }),
         others => {
             let range = others.worksheet_range(sheet).map_err(InputError::damaged)?;
             let formulas = others.worksheet_formula(sheet).map_err(InputError::damaged)?;

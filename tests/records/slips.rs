@@ -79,6 +79,9 @@ fn what_is_wrong_is_refused_for_its_reason() {
         (at2("IN UNITS OF FURLONGS", "NPTS= 103, DT= .01"), "", "Value { line: 3, field: \"unit\""),
         (cosmos(&motion(103), 90).replace("cm/sec2(04)", "counts (50)"), "", "Value"),
         (esm(&motion(103)).replace("PGA_CM/S^2: ", "PGA_CM/S^2: 9"), "", "Peak"),
+        (csv("# Units: m/s2\ntime,acc (g)", G), "", "Units"),
+        (csv("time,acc (g) x 10", G), "", "Missing { line: 2, field: \"unit\""),
+        (csv("# PGA = 0.9 g\ntime,acc (g)", G), "", "Peak"),
         // Velocity, displacement, times.
         (csv("time,vel", G), "unit=g", "NotAcceleration"),
         (bare("# velocity in cm/s"), "dt=0.01 unit=g", "Value"),

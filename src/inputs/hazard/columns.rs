@@ -7,7 +7,6 @@ use super::told::Told;
 use crate::inputs::words::is_one_of;
 use crate::inputs::{Grid, Heading, Result};
 
-/// An intensity measure type.
 #[derive(Debug, Clone, Copy, PartialEq, strum::Display)]
 #[strum(serialize_all = "UPPERCASE")]
 pub enum Imt {
@@ -121,7 +120,6 @@ impl Phrase {
             || differ(self.years(), other.years())
     }
 
-    /// Its frequency, measure and fractile.
     pub fn meaning(&self) -> String {
         let frequency = self.frequency.map(|frequency| frequency.to_string());
         let measure = self.measure().map(|measure| measure.to_string());
@@ -138,7 +136,6 @@ impl Phrase {
         self.rest.iter().all(|word| meanings.iter().any(|meaning| is_one_of(word, meaning)))
     }
 
-    /// Whether it is of values in a unit.
     fn are_values(&self, unit: Unit) -> bool {
         let name = match (unit.quantity, &self.measures[..]) {
             (Quantity::Acceleration, [] | [Imt::Pga | Imt::Sa | Imt::SaAt(_)]) => "acceleration",
@@ -235,7 +232,7 @@ fn take_statistic(words: &mut Vec<String>) -> Option<Statistic> {
         let are_years = is(at + 1, "years") || at > 0 && is(at - 1, "probability");
         let is_ranked = (at.saturating_sub(1)..at + 3).any(|beside| is(beside, "fractile"));
         let statistic = match words[at].as_str() {
-            "median" => Statistic::Median,
+            "median" | "mediana" | "médiane" => Statistic::Median,
             "50" | "0.5" | "0.50" if is_ranked && !are_years => Statistic::Median,
             "16" | "0.16" if !are_years => Statistic::Low,
             "84" | "0.84" if !are_years => Statistic::High,

@@ -21,7 +21,6 @@ use self::told::noted;
 use super::intensities::{MotionTable, motions};
 use super::words::means;
 use super::{Grid, Heading, InputError, Meaning, Reader, Result};
-use crate::source;
 
 /// Reads the hazard of a site: a file, or a file for each of its curves. `effective_years` is the time that
 /// ground-motion fields stand for. Warnings are about medians and motions beyond any record.
@@ -77,10 +76,7 @@ impl Curve {
         points.sort_by(|(a, ..), (b, ..)| a.total_cmp(b));
         let is_wrong = |pair: &&[(f64, f64, usize)]| pair[1].0 == pair[0].0 || pair[1].1 > pair[0].1;
         if let Some(pair) = points.windows(2).find(is_wrong) {
-            let expected = match pair[0].0 == pair[1].0 {
-                true => "one row of each intensity",
-                false => "motions no more frequent than weaker ones",
-            };
+            let expected = "one row of each intensity, and none more frequent than weaker ones";
             return Err(grid.refusal(pair[1].2, rates, expected));
         }
         let known = points.into_iter().map(|(value, rate, _)| (value, rate));
@@ -149,7 +145,6 @@ struct Found {
 impl Found {
     /// Adds what is in a file: each of its columns has one role, or it is refused.
     fn add(&mut self, path: &Path, reader: &mut Reader, effective_years: Option<f64>) -> Result<()> {
-        expect_table(path)?;
         let mut grid = reader.read(path)?;
         self.expect_one_site(&grid)?;
         let [are_fields, is_exported] =
@@ -161,7 +156,7 @@ impl Found {
             return Err(InputError::unexpected(found, expected));
         }
         openquake::name_fields(&mut grid);
-        let mut told = Told::new(&grid)?;
+        let mut told = Told::new(&grid, path)?;
         if is_exported {
             grid = openquake::curve(&grid, &mut told)?;
         }
@@ -182,7 +177,7 @@ impl Found {
                 // Not the years of a return period.
                 grid.headings[at].unit = None;
             } else if !are_named {
-                column.measures = vec![told.measure(column.measure(), path)?];
+                column.measures = vec![told.measure(column.measure())?];
             }
             meanings[at] = Meaning::Known(column.meaning());
         }
@@ -190,25 +185,24 @@ impl Found {
             true => self.add_motions(&grid, occurrence, effective_years)?,
             false => self.add_curves(&grid, &columns, &told, path)?,
         }
-        reader.tell(path, &grid, meanings, Vec::new());
+        reader.tell(path, &grid, meanings);
         Ok(())
     }
 
-    /// Adds the curves of columns of values and of frequencies.
     fn add_curves(&mut self, grid: &Grid, columns: &[Phrase], told: &Told, file: &Path) -> Result<()> {
         let pairs = pairs(columns);
         let named = pairs.iter().map(|pair| pair.iter().find_map(|at| columns[*at].measure()));
         let imts: Vec<Imt> = named.clone().flatten().collect();
         let is_told = told.measures.iter().any(|told| imts.iter().any(|named| named.may_be(*told)));
         if let (Some(named), Some(told), false) = (imts.first(), told.measures.first(), is_told) {
-            let found = format!("{named} in a heading and {told} in a comment");
+            let found = format!("{named} in a heading and {told} in a comment or name");
             return Err(InputError::unexpected(found, "one of them"));
         }
         let are_unnamed = columns.iter().all(|column| column.statistic.is_none());
         let statistic = told.statistic.filter(|told| are_unnamed || *told == Statistic::Median);
         let (before, mut other) = (self.curves.len(), None);
         for (named, pair) in named.zip(&pairs) {
-            match told.measure(named, file)? {
+            match told.measure(named)? {
                 measure @ (Imt::Pga | Imt::Pgv | Imt::SA_1S) => {
                     let own = pair.iter().find_map(|at| columns[*at].statistic);
                     let of = (measure, own.or(statistic).unwrap_or(Statistic::Mean));
@@ -300,32 +294,15 @@ impl Found {
     }
 }
 
-/// Refuses what holds no table, by what it is.
-fn expect_table(path: &Path) -> Result<()> {
-    let (file, _) = source::split_sheet(path);
-    let bytes = source::read(&file).unwrap_or_default();
-    let found = match bytes.trim_ascii_start() {
-        [b'{' | b'[', ..] => "JSON, as of a web service",
-        start if start.starts_with(b"<?xml") || start.starts_with(b"<nrml") => "XML, as OpenQuake's NRML",
-        _ => return Ok(()),
-    };
-    Err(InputError::unexpected(found, "the same curve as CSV: intensities in g under pga_g, rates under AFE"))
-}
-
 const UNDERSTOOD: &str = "a peak with its unit (pga_g, PGV (m/s)), its rates (AFE, PoE in 50 years, return \
                           period) or a place: --columns pga_g=HEADING names one, --ignore HEADING,... leaves \
                           others out";
 
-/// Refuses columns without a role.
 pub fn expect_understood(grid: &Grid, meanings: &[Meaning]) -> Result<()> {
     let columns = grid.headings.iter().zip(meanings);
     let unknown = columns.filter(|(_, meaning)| **meaning == Meaning::NotUnderstood);
     let unknown: Vec<&str> = unknown.map(|(heading, _)| heading.text.as_str()).collect();
-    if unknown.is_empty() {
-        return Ok(());
-    }
-    let heading = Some(unknown.join(",")).filter(|_| grid.has_headings);
-    Err(InputError::not_understood(heading.as_deref(), UNDERSTOOD, grid.found()))
+    if unknown.is_empty() { Ok(()) } else { Err(grid.not_understood(&unknown, UNDERSTOOD)) }
 }
 
 /// Columns of values, each with those of frequencies that may belong to it: those before or behind it up to

@@ -13,10 +13,7 @@ pub fn name_fields(grid: &mut Grid) {
 
 /// The table of a curve with a column for each level. What is not known to be the mean is not taken for it.
 pub fn curve(grid: &Grid, told: &mut Told) -> Result<Grid> {
-    // Before version 3, the kind was the first word of the header.
-    let header = grid.notes.first().map_or("", |note| note.trim_start_matches(['#', ' ']));
-    let kind = noted(grid, "kind").or(header.split([',', ' ']).next()).unwrap_or_default();
-    told.qualify(&Heading::new("kind"), kind)?;
+    told.qualify(&Heading::new("kind"), noted(grid, "kind").unwrap_or("unknown"))?;
     let (Some(imt), Some(years), 1) = (noted(grid, "imt"), told.years, grid.lines.len()) else {
         let found = format!("{} rows under {}", grid.lines.len(), grid.notes.join(" "));
         return Err(InputError::unexpected(found, "one row under imt and investigation_time"));

@@ -7,8 +7,9 @@ use std::path::Path;
 use rockfrag_core::units::Unit;
 
 use super::columns::{Frequency, Imt, Phrase, Statistic};
-use crate::inputs::words::means;
+use crate::inputs::words::{means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
+use crate::source::split_sheet;
 
 #[derive(Debug, Default)]
 pub struct Told {
@@ -20,8 +21,8 @@ pub struct Told {
 }
 
 impl Told {
-    /// Reads comments, titles and remarks.
-    pub fn new(grid: &Grid) -> Result<Told> {
+    /// Reads comments, titles, remarks, and the names of the file and its sheet.
+    pub fn new(grid: &Grid, file: &Path) -> Result<Told> {
         let years = noted(grid, "investigation time").and_then(|years| years.parse().ok());
         let mut told = Told { years, ..Told::default() };
         for key in ["imt", "kind", "statistic", "component"] {
@@ -29,7 +30,9 @@ impl Told {
         }
         let remarks = (0..grid.headings.len()).filter(|at| means(&grid.headings[*at].name, "remark"));
         let remarks = remarks.flat_map(|at| grid.rows().map(move |row| grid.cell(row, at)));
-        let mut texts = grid.notes.iter().map(String::as_str).chain(remarks);
+        let (file, _) = split_sheet(file);
+        let name = file.file_stem().unwrap_or_default().to_string_lossy();
+        let mut texts = grid.notes.iter().map(String::as_str).chain(remarks).chain([&*name]);
         texts.try_for_each(|text| told.remark(text))?;
         Ok(told)
     }
@@ -39,15 +42,20 @@ impl Told {
         let parts = text.split([';', ',']).map(|part| Phrase::new(&part.replace("AG", "")));
         let parts: Vec<Phrase> = parts.collect();
         let has = |word: &str| parts.iter().any(|part| part.rest.iter().any(|own| own == word));
-        let ranked = parts.iter().find(|part| part.is_ranked && !has("mean"));
+        let is_limit = |part: &Phrase| matches!(part.statistic, Some(Statistic::Low | Statistic::High));
+        let ranked = parts.iter().find(|part| part.is_ranked && (is_limit(part) || !has("mean")));
         let is_other = ranked.is_some_and(|part| part.statistic.is_none());
-        if is_other || has("vertical") && !has("horizontal") {
+        if is_other || says_vertical(text) {
             let expected = "horizontal motion: the mean, the median, or the 16th and 84th percentiles";
             return Err(InputError::unexpected(format!("'{text}'"), expected));
         }
         self.statistic = ranked.and_then(|part| part.statistic).or(self.statistic);
         for part in parts {
-            let is_of_unit = !part.measures.is_empty() || part.rest.iter().any(|word| means(word, "unit"));
+            let is_of_unit = |word: &String| means(word, "unit") || word.starts_with("acc");
+            let is_of_unit = !part.measures.is_empty() || part.rest.iter().any(is_of_unit);
+            if let (Some(Frequency::ProbabilityIn(years)), None) = (part.frequency, self.years) {
+                self.years = Some(years);
+            }
             self.units.extend(part.unit.filter(|_| is_of_unit));
             self.add(part.measures);
         }
@@ -122,15 +130,14 @@ impl Told {
         })
     }
 
-    /// The measure of a curve whose headings name this one, or none. The name of a file tells where all else
-    /// is silent; an acceleration of which nothing is said is PGA.
-    pub fn measure(&self, named: Option<Imt>, file: &Path) -> Result<Imt> {
-        let name = || file.file_stem().unwrap_or_default().to_string_lossy();
+    /// The measure of a curve whose headings name this one, or none; an acceleration of which nothing is said
+    /// is PGA.
+    pub fn measure(&self, named: Option<Imt>) -> Result<Imt> {
         match (named, &self.measures[..]) {
             (None, [imt]) => Ok(*imt),
             (Some(Imt::Sa), [imt]) if imt.may_be(Imt::Sa) => Ok(*imt),
             (Some(named), _) => Ok(named),
-            (None, []) => Ok(Phrase::new(&name()).measures.first().copied().unwrap_or(Imt::Pga)),
+            (None, []) => Ok(Imt::Pga),
             (None, [first, second, ..]) => {
                 let found = format!("{first} and {second} in comments");
                 Err(InputError::unexpected(found, "the measure in the heading, by --columns if need be"))

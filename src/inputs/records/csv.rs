@@ -1,15 +1,17 @@
 //! Columns of a table: accelerations, one motion each, with or without times. Headings and comments name
 //! units, time steps and quantities; options of the user must not contradict them.
 
-use rockfrag_core::records::{Origin, RecordedMotion};
+use rockfrag_core::records::{HeaderPga, Origin, RecordedMotion};
 use rockfrag_core::units::{Quantity, Unit};
 
 use super::ReadOptions;
-use super::header::{self, azimuth_of, expect_step, number, time_step};
-use crate::inputs::words::{is_vertical, joined};
+use super::header::{self, azimuth_of, expect_step, header_pga, number, time_step};
+use crate::inputs::heading::number_with_unit;
+use crate::inputs::words::{is_vertical, joined, means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Result};
 
-const HOUR_S: f64 = 3600.0;
+/// After which clocks begin anew.
+const HALF_DAY_S: f64 = 12.0 * 3600.0;
 /// Accepted relative difference of a step of time from the usual one.
 const UNEVEN: f64 = 0.05;
 /// Beginnings of words for horizontal components without an azimuth, which their first letters name, too.
@@ -45,6 +47,9 @@ pub fn parse(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedMotion>>
             return Err(table.which_column());
         }
         motions.push(motion);
+    }
+    if let [motion] = &mut motions[..] {
+        motion.header_pga = table.grid.notes.iter().find_map(|note| noted_pga(note));
     }
     Ok(motions)
 }
@@ -130,11 +135,18 @@ impl Samples<'_> {
         self.expect_one_series(row)?;
         samples.drain(..above);
         let line = self.grid.lines[row.saturating_sub(1)];
-        let noted = || self.grid.notes.iter().find_map(|note| noted_unit(note));
-        let unit = heading.unit.or_else(|| noted().filter(|_| !heading.is_scaled));
+        let noted = self.grid.notes.iter().find_map(|note| noted_unit(note));
+        let is_other = |unit: &Unit| unit.quantity == Quantity::Acceleration && heading.unit != Some(*unit);
+        if let Some(unit) = noted.filter(is_other).filter(|_| heading.unit.is_some()) {
+            return Err(InputError::Units { heading: heading.text.clone(), unit: unit.name.to_string() });
+        }
+        let unit = heading.unit.or(noted.filter(|_| !heading.is_scaled));
         let unit = header::unit(unit, self.options, line)?;
         let dt_s = time_step(step.or(step_above), self.options, line)?;
-        let (name, azimuth_deg) = direction(heading).unwrap_or((&heading.text, None));
+        let are_several =
+            self.quantities.iter().filter(|of| **of == Some(Quantity::Acceleration)).count() > 1;
+        let noted = self.grid.notes.iter().find_map(|note| noted_component(note)).filter(|_| !are_several);
+        let (name, azimuth_deg) = direction(heading).or(noted).unwrap_or((&heading.text, None));
         let component = Some(name.to_string()).filter(|name| !name.is_empty());
         let origin = Origin { component, azimuth_deg, ..Origin::default() };
         Ok(RecordedMotion::new(self.options.dt_s.unwrap_or(dt_s), samples, unit, origin))
@@ -167,7 +179,7 @@ impl Samples<'_> {
         let mut times = Vec::<f64>::new();
         for row in grid.rows() {
             times.push(match (clock_s(grid.cell(row, column)), times.last()) {
-                (Some(clock), Some(last)) => last + (clock - last).rem_euclid(HOUR_S),
+                (Some(clock), Some(last)) => last + (clock - last).rem_euclid(HALF_DAY_S),
                 (Some(clock), None) => clock,
                 (None, _) => in_s * grid.number(row, column)?,
             });
@@ -220,7 +232,6 @@ impl Samples<'_> {
     }
 }
 
-/// Digits behind the decimal sign.
 fn decimals_of(cell: &str) -> usize {
     cell.split(['.', ',']).nth(1).map_or(0, str::len)
 }
@@ -250,7 +261,6 @@ fn quantities(grid: &Grid) -> Vec<Option<Quantity>> {
     quantities
 }
 
-/// The quantity that a heading names.
 fn quantity(heading: &Heading) -> Option<Quantity> {
     let named = heading.name.split('-').find_map(|word| match word {
         "a" | "ag" => Some(Quantity::Acceleration),
@@ -293,18 +303,20 @@ fn is_component(heading: &Heading) -> bool {
     is_code || last.ends_with(|sign: char| sign.is_ascii_digit()) || direction(heading).is_some()
 }
 
-/// Reads the seconds within the hour in a cell such as `2020/01/20 20:13:20.01Z`, `8:13:20:010 PM` or
+/// Reads the seconds of the day in a cell such as `2020/01/20 20:13:20.01Z`, `8:13:20:010 PM` or
 /// `13:20.01`.
 fn clock_s(cell: &str) -> Option<f64> {
     let behind = |sign: char| !sign.is_ascii_digit() && !":.,".contains(sign);
     let time = cell.split(behind).find(|part| part.contains(':'))?.replace(',', ".");
     let parts: Vec<&str> = time.split(':').collect();
-    let (minutes, seconds) = match parts[..] {
-        [minutes, seconds] | [_, minutes, seconds] => (minutes, seconds.to_string()),
-        [_, minutes, seconds, thousandths] => (minutes, format!("{seconds}.{thousandths}")),
+    let (hours, minutes, seconds) = match parts[..] {
+        [minutes, seconds] => ("0", minutes, seconds.to_string()),
+        [hours, minutes, seconds] => (hours, minutes, seconds.to_string()),
+        [hours, minutes, seconds, thousandths] => (hours, minutes, format!("{seconds}.{thousandths}")),
         _ => return None,
     };
-    Some(60.0 * minutes.parse::<f64>().ok()? + seconds.parse::<f64>().ok()?)
+    let whole = 60.0 * hours.parse::<f64>().ok()? + minutes.parse::<f64>().ok()?;
+    Some(60.0 * whole + seconds.parse::<f64>().ok()?)
 }
 
 /// Reads the unit in a comment that speaks of units, acceleration, or what is none.
@@ -312,7 +324,25 @@ fn noted_unit(note: &str) -> Option<Unit> {
     let Heading { name, unit, .. } = Heading::new(note);
     let word = || note.split([':', '=']).nth(1)?.split_whitespace().next().and_then(Unit::parse);
     let is_meant = ["acc", "unit", "vel", "displ"].iter().any(|word| name.contains(word));
-    unit.or_else(|| word().filter(|_| name.contains("unit"))).filter(|_| is_meant)
+    unit.or_else(|| word().filter(|_| name.contains("unit")))
+        .filter(|_| is_meant && noted_pga(note).is_none())
+}
+
+/// Reads the peak in a comment such as `PGA = 0.6 g` or `PGA (g): 0.6`.
+fn noted_pga(note: &str) -> Option<HeaderPga> {
+    let (key, value) = note.split_once([':', '='])?;
+    let unit =
+        Heading::new(key).unit.or_else(|| Heading::new(value).unit.or(Some(number_with_unit(value)?.1)));
+    header_pga(value, unit.filter(|_| means(&Heading::new(key).name, "pga"))?.si)
+}
+
+/// Finds the direction in a comment such as `Component: UP` or `Vertical motion`.
+fn noted_component(note: &str) -> Option<(&str, Option<f64>)> {
+    let (key, value) = note.split_once([':', '=']).unwrap_or_default();
+    let is_named = ["component", "channel", "direction"].iter().any(|of| joined(key).ends_with(of));
+    let of_value = azimuth_of(value).is_some() || is_vertical(value.trim());
+    let named = is_named && of_value;
+    named.then(|| (value.trim(), azimuth_of(value))).or(says_vertical(note).then_some(("vertical", None)))
 }
 
 /// Reads the time step (s) in a comment such as `dt = 0.01 s`, `Sampling rate: 100 sps`, or

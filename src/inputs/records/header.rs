@@ -8,7 +8,6 @@ use crate::inputs::{InputError, Result, plain_number};
 
 /// Accepted relative difference of a time step from the option.
 const SAME_STEP: f64 = 0.01;
-/// What is expected of a unit.
 const ACCELERATION: &str = "one of acceleration, such as g or cm/s2, or --unit, such as --unit g";
 
 /// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
@@ -68,7 +67,6 @@ pub fn field<'a>(header: &[&'a str], key: &str) -> Field<'a> {
     Field { line, text }
 }
 
-/// Joins the texts behind keys.
 pub fn label(header: &[&str], keys: &[&str]) -> Option<String> {
     let texts: Vec<&str> = keys.iter().map(|key| field(header, key).text).collect();
     single_spaced(&texts.join(" "))

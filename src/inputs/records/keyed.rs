@@ -4,15 +4,12 @@
 use rockfrag_core::records::{Origin, RecordedMotion};
 use rockfrag_core::units::CM_PER_M;
 
-use super::ReadOptions;
 use super::header::{
     Field, after, azimuth_of, field, header_pga, label, number, numbers, samples, single_spaced, time_step,
     unit_of,
 };
+use super::{HEADER, ReadOptions};
 use crate::inputs::{InputError, Result};
-
-/// Largest number of header lines.
-const HEADER: usize = 200;
 
 pub fn is_esm(lines: &[&str]) -> bool {
     !field(esm_header(lines), "SAMPLING_INTERVAL_S:").text.is_empty()
@@ -64,7 +61,7 @@ pub fn knet(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
 pub fn esm(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     let header = esm_header(lines);
     let Field { line, text } = field(header, "DATA_TYPE:");
-    if !text.is_empty() && after(text, "ACCELERATION").is_none() {
+    if !text.is_empty() && after(text, "ACCELERATION").is_none() || after(text, "SPECTR").is_some() {
         return Err(InputError::NotAcceleration { line, found: text.to_string() });
     }
     let unit = unit_of(field(header, "UNITS:"), options)?;
@@ -92,7 +89,6 @@ pub fn esm(lines: &[&str], options: &ReadOptions) -> Result<RecordedMotion> {
     })
 }
 
-/// The leading lines of `KEY: value`.
 fn esm_header<'a, 'b>(lines: &'a [&'b str]) -> &'a [&'b str] {
     let end = lines.iter().take(HEADER).take_while(|line| line.contains(':')).count();
     &lines[..end]

@@ -1,12 +1,4 @@
 //! File formats of records: from the bytes of a file to accelerations.
-//!
-//! ```text
-//! peer_at2  PEER's AT2, old and NGA
-//! cosmos    COSMOS V1 and V2
-//! keyed     lines of key and value: K-NET, KiK-net, Engineering Strong Motion database
-//! csv       columns of a table, with or without times
-//! header    fields and blocks of numbers, common to several formats
-//! ```
 
 mod cosmos;
 mod csv;
@@ -24,7 +16,6 @@ use strum::VariantArray;
 
 use super::{InputError, Result, decode, words};
 
-/// A text format, in order of detection.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
@@ -53,6 +44,7 @@ pub fn is_vertical(origin: &Origin) -> bool {
     origin.azimuth_deg.is_none() && origin.component.as_deref().is_some_and(words::is_vertical)
 }
 
+const HEADER: usize = 200;
 /// Accepted relative difference of the peak in a header, which may be rounded or of uncorrected samples.
 const SAME_PEAK: f64 = 0.05;
 
@@ -78,8 +70,12 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
         RecordFormat::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
         RecordFormat::Csv => csv::parse(bytes, options)?,
     };
+    let in_borehole = ["borehole", "downhole"];
+    let is_in_borehole = |line: &&str| in_borehole.iter().any(|word| header::after(line, word).is_some());
+    let is_in_borehole = lines.iter().take(HEADER).any(is_in_borehole);
     for motion in &mut motions {
         motion.format = format.into();
+        motion.is_in_borehole |= is_in_borehole;
         // Different peaks show a wrong unit or a wrong number of samples.
         let found_m_s2 = peak(&motion.acceleration_m_s2);
         if let Some(HeaderPga { m_s2, rounding_m_s2 }) = motion.header_pga

@@ -10,7 +10,6 @@ use super::header::{
 };
 use crate::inputs::{InputError, Result, plain_number};
 
-/// Largest number of lines before the one with NPTS.
 const HEADER: usize = 8;
 
 /// Finds the line with NPTS (or NPT) and DT, or with numbers alone below the unit.
