@@ -117,27 +117,6 @@ fn a_pipeline_of_a_list_goes_on_past_what_does_not_rock_on_the_ground() {
 }
 
 #[test]
-fn names_may_be_long() {
-    let name = "n".repeat(65_536);
-    let folder = folder(&[("list.csv", &format!("name,width,height\n{name},0.4,2.0\nB,0.5,2.0\n"))]);
-    write_motions(&folder.path().join("motions.parquet"), 0.01, &[&[9.0; 300], &[0.1; 300]]);
-    for call in [
-        "evaluate --structures list.csv --pga 0.6 --pgv 0.8",
-        "simulate --structures list.csv",
-        "fit-pro",
-        "ida --structures list.csv",
-        "report --in responses.parquet",
-    ] {
-        assert!(succeed(folder.path(), call).0.len() < 100_000, "{call}");
-    }
-    // A figure with the whole name takes minutes to draw.
-    for figure in std::fs::read_dir(folder.path().join("report")).unwrap().flatten() {
-        let is_drawn = figure.path().extension().is_some_and(|ending| ending == "svg");
-        assert!(!is_drawn || figure.metadata().unwrap().len() < 65_536, "{figure:?}");
-    }
-}
-
-#[test]
 fn threads_that_no_machine_can_start_are_errors() {
     let call = "evaluate --width 0.5 --height 2 --pga 0.5 --pgv 0.6";
     // No machine has the memory for such a stack.
