@@ -76,6 +76,8 @@ fn the_base_for_a_target_meets_it() {
     // Where the width is enough, the depth stays.
     let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
     assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
+    // It adds nothing, and so is no reason to doubt.
+    assert!(deep["warnings"].is_null(), "{deep}");
 }
 
 #[test]
