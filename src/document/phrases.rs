@@ -172,7 +172,9 @@ impl Answer {
             let anchored = "Anchored, it would not rock.";
             return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
         };
-        let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.value.is_none());
+        let has_other_sides = self.object.depth_m != self.object.width_m;
+        let is_over_depth = has_other_sides && self.rates.bases.target_width_m.value.is_none();
+        let depth = self.object.depth_m.filter(|_| is_over_depth);
         let depth = depth.map_or(String::new(), |depth| {
             let depth = number::length(depth);
             format!("No width{whose} reaches {target}: it then falls over its depth ({depth} m). ")

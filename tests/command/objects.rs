@@ -78,6 +78,11 @@ fn the_base_for_a_target_meets_it() {
     assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
     // It adds nothing, and so is no reason to doubt.
     assert!(deep["warnings"].is_null(), "{deep}");
+    // Equal sides stay equal, and none is smaller than it is.
+    let square = row("--width 0.38 --depth 0.38 --height 1.8 --target 1%");
+    assert!(square["target_width_m"].is_null() && number(&square, "target_sides_m") > 0.5);
+    let safe = row("--width 0.7 --depth 0.9 --height 1.9 --target 50%");
+    assert!(near(number(&safe, "target_width_m"), 0.7, 1e-9));
 }
 
 #[test]
