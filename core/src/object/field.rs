@@ -54,8 +54,8 @@ pub struct Entry {
 }
 
 impl Field {
-    /// The words of the fields of [`Shape`](super::Shape); the others are of [`Place`](super::Place).
-    pub const OF_SHAPE: [&str; 10] = [
+    /// The words of the fields of [`Shape`](super::Shape) but `eta`; the others are of [`Place`](super::Place).
+    pub const SIZES: [&str; 9] = [
         "width",
         "height",
         "depth",
@@ -65,7 +65,6 @@ impl Field {
         "beam-mass-ratio",
         "p",
         "alpha",
-        "eta",
     ];
 
     /// No rocking structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a

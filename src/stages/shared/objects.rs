@@ -25,8 +25,9 @@ use crate::stages::shared::reading_args::ListArgs;
 pub fn with_fields(stage: Command) -> Command {
     let has = |option: &str| stage.get_arguments().any(|arg| arg.get_id() == option);
     let (shape, place) = (has("structures"), has("pga"));
-    let of_shape = Field::OF_SHAPE.into_iter().filter(|_| shape).map(|word| (word, "Structure"));
-    let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !Field::OF_SHAPE.contains(word));
+    let is_of_shape = |word: &&str| *word == "eta" || Field::SIZES.contains(word);
+    let of_shape = Field::SIZES.into_iter().chain(["eta"]).filter(|_| shape).map(|word| (word, "Structure"));
+    let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !is_of_shape(word));
     let of_place = others.filter(|_| place).map(|word| (word, "Object"));
     stage.args(of_shape.chain(of_place).filter_map(|(word, heading)| {
         let of = word.parse::<Field>().ok()?;
@@ -65,7 +66,7 @@ pub struct StructureArgs {
 
 impl StructureArgs {
     pub const RULES: [Rule; 6] = [
-        Rule::Either(&Field::OF_SHAPE, &["structure", "structures"]),
+        Rule::Either(&Field::SIZES, &["structure", "structures"]),
         Rule::Either(&["structure"], &["structures"]),
         Rule::Either(
             &["width", "height", "depth", "centre-height", "centre-offset", "inertia"],
@@ -133,7 +134,9 @@ impl StructureArgs {
             let paper = paper::structures().into_iter();
             all.extend(paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))));
         }
-        if self.one != Shape::default() {
+        let is_open = |object: &&mut Object| object.shape.eta.is_none() && object.place.base.is_none();
+        all.iter_mut().filter(is_open).for_each(|object| object.shape.eta = self.one.eta);
+        if all.is_empty() && self.one != Shape::default() {
             all.push(Object { name: UNNAMED.to_string(), shape: self.one, ..Object::default() });
         }
         let expected = "--width and --height of a block, or --p, --alpha and --eta, or --structures FILE";
