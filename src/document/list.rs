@@ -18,7 +18,7 @@ const NAMED: usize = 4;
 pub fn document(table: &AnswerTable) -> Document {
     let Some(worst) = table.rows.first() else { return Document::default() };
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
-    let when = worst.when().unwrap_or_default();
+    let when = Answer::when_of_all(&table.rows);
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
     let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
     let title = format!("{}: {what}", counted(table.rows.len(), "object"));
@@ -112,7 +112,7 @@ pub fn expected_number<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Str
 type Cell = fn(&Answer) -> String;
 
 /// The columns; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 23] = [
+const COLUMNS: [(&str, Cell); 24] = [
     ("change", |answer| of_before(answer, |before| before.changes.join("; "))),
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
     ("overturns @, %", |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
@@ -131,6 +131,7 @@ const COLUMNS: [(&str, Cell); 23] = [
     ("half rock too far, or overturn at", |Answer { fragility, .. }| {
         fragility.over.map_or(String::new(), |over| intensity(over, fragility.failure.theta.value))
     }),
+    ("years", |answer| answer.rates.years.map_or(String::new(), plain)),
     ("return period, years", |answer| answer.rates.return_period_years.map_or(String::new(), period)),
     ("rocks too far @, %", |answer| of_states(answer, |p| OF_HUNDRED.value(p.p_failure))),
     ("friction needed", |answer| answer.object.friction_needed().map_or(String::new(), |of| fixed(of, 2))),
@@ -149,7 +150,7 @@ const ALWAYS: [&str; 7] = [
     "times, 95 % limits",
     "not assessed",
 ];
-const UNSAID: [&str; 3] = ["place", "file", "responses"];
+const UNSAID: [&str; 4] = ["place", "file", "years", "responses"];
 
 /// The answers, and what is the same for all objects.
 fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {

@@ -47,7 +47,11 @@ impl ObjectColumns {
             (None, Some(1.0)) => "on the roof".to_string(),
             (None, Some(level)) => format!("{} % up the building", fixed(100.0 * level, 0)),
         };
-        floor + self.wall_rebound.map_or("", |_| " at a wall")
+        let pedestal = self.is_fixed_to_pedestal.map_or("", |is_fixed| match is_fixed {
+            true => " with its pedestal",
+            false => " on a pedestal",
+        });
+        floor + self.wall_rebound.map_or("", |_| " at a wall") + pedestal
     }
 
     /// The place in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
@@ -109,6 +113,15 @@ impl Answer {
                 self.fragility.over.map(|over| format!("over {}", over.name_and_unit().0))
             }
             None => Some(format!("at {}", peaks.join(" and "))),
+        }
+    }
+
+    /// The time of exposure of all, or that each has its own.
+    pub fn when_of_all(answers: &[Answer]) -> String {
+        let times: BTreeSet<String> = answers.iter().filter_map(Answer::when).collect();
+        match times.len() > 1 && answers.iter().any(|answer| answer.rates.years.is_some()) {
+            true => "in the years of each".to_string(),
+            false => times.into_iter().next().unwrap_or_default(),
         }
     }
 
@@ -266,7 +279,9 @@ pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
         UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
         UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
         UncertaintySource::Wall => ["rebound from the wall", "its measured value", "--wall"],
-        UncertaintySource::Object => ["centre of mass", "weighing", "--centre-height-sd"],
+        UncertaintySource::Object => {
+            ["centre of mass", "weighing or a tilt test", "--centre-height-sd, --alpha-sd"]
+        }
         UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
         UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],
     }

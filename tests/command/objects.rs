@@ -41,6 +41,8 @@ fn what_is_uncertain_widens_the_limits_and_nothing_else_of_a_small_error() {
     let surveyed = row("--width 0.8 --height 2.2 --period 0.6 --level 1 --period-sd 0.02");
     assert!(plain["error_floor"].is_null());
     assert!(number(&floor, "error_floor") > 5.0 * number(&surveyed, "error_floor"));
+    let tilted = row("--width 0.8 --height 2.2 --alpha-sd 2deg");
+    assert!(number(&tilted, "error_object") > 0.3, "{tilted}");
     let [before_wall, soft] =
         ["--wall", "--wall 0.1"].map(|wall| row(&format!("--width 0.8 --height 2.2 {wall}")));
     assert!(number(&before_wall, "error_wall") > 0.1 && soft["error_wall"].is_null());
@@ -139,6 +141,24 @@ fn a_list_is_answered_and_counted_as_its_objects_are() {
     assert!(number(cabinet, "count") == 3.0 && text.contains("of 10"), "{text}");
     let same = rate("--width 0.6 --depth 0.45 --height 1.9 --period 0.6 --level 0.5");
     assert!(near(number(cabinet, "overturning_per_year"), same, 1e-9));
+}
+
+#[test]
+fn options_fill_what_a_list_leaves_open_and_each_rock_has_its_years() {
+    let list =
+        "Rock,p (rad/s),alpha (deg),alpha sd (deg),age (ka),eta\na,2.1,14,2,12.5,\nb,3.4,12,2,18,0.9\n";
+    let folder = folder(&[("list.csv", list), ("vase.csv", "name,diameter,height\nvase,0.3,1.6\n")]);
+    let call = format!("--structures list.csv {HAZARD}");
+    let all = evaluated(folder.path(), &format!("{call} --eta housner"));
+    let housner = 1.0 - 1.5 * 14_f64.to_radians().sin().powi(2);
+    assert!(near(number(&all[0], "eta"), housner, 1e-9) && number(&all[1], "eta") == 0.9);
+    for (row, years) in all.iter().zip([12_500.0, 18_000.0]) {
+        let p = 1.0 - (-years * number(row, "overturning_per_year")).exp();
+        assert!(number(row, "years") == years && near(number(row, "p_overturning"), p, 1e-9));
+    }
+    fail(folder.path(), &format!("evaluate {call} --width 0.5"), 2, &["--width", "--structures"]);
+    let vase = &evaluated(folder.path(), &format!("--structures vase.csv {HAZARD} --base stone"))[0];
+    assert!(vase["base"] == "stone" && vase["warnings"].as_str().is_some_and(|of| of.contains("round")));
 }
 
 #[test]

@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::builder::BoolishValueParser;
 use clap::{Arg, Args, Command, ValueHint, value_parser};
 use rockfrag_core::object::{
     Base, Entry, Field, Object, Place, Restitution, Shape, Wall, structure_warnings,
@@ -36,6 +37,7 @@ pub fn with_fields(stage: Command) -> Command {
         Some(match of {
             Field::Eta => arg.value_parser(value_parser!(Restitution)),
             Field::Base => arg.value_parser(value_parser!(Base)),
+            Field::FixedToPedestal => arg.value_parser(BoolishValueParser::new()),
             Field::Wall => arg.num_args(0..=1).default_missing_value("yes").value_parser(value_parser!(Wall)),
             _ => arg.value_parser(move |text: &str| of.parse_value(text)),
         })
@@ -146,7 +148,7 @@ impl StructureArgs {
             let problem = format!("two structures are called '{name}'; expected distinct names");
             return Err(UsageError::because(problem));
         }
-        Ok(all.into_iter().map(|object| object.at(place)).collect())
+        Ok(all.into_iter().map(|object| object.at(place).on_pedestal()).collect())
     }
 }
 
