@@ -39,24 +39,8 @@
 //! detail: depth, floor, what was measured. A [`GroundMotion`](hazard::GroundMotion) in place of a site
 //! gives probabilities.
 //!
-//! # The response to a record
-//!
-//! ```
-//! use rockfrag_core::rocking::{Outcome, Record, Structure, simulate};
-//!
-//! let cabinet = Structure::rectangular_block("cabinet", 0.8, 2.2, None)?;
-//! // A sine of 2 Hz and 6 m/s2, every 5 ms.
-//! let sine = |k: i32| 6.0 * (std::f64::consts::TAU * 2.0 * 0.005 * f64::from(k)).sin();
-//! let acceleration: Vec<f64> = (0..400).map(sine).collect();
-//! let response = simulate(&cabinet, &Record::new(&acceleration, 0.005)?);
-//! // The largest rotation over the slenderness, |theta|max / alpha.
-//! let Outcome::SafeRocking(demand) = response.outcome else { panic!("{response:?}") };
-//! assert!(0.0 < demand && demand < 1.0);
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
-//!
-//! [`rocking::trace`] gives the rotation over time. The folder `examples` has the way from earthquake
-//! scenarios to a fragility curve.
+//! [`rocking::simulate`] gives the response to a record, [`rocking::trace`] the rotation over time: see the
+//! folder `examples`, which also has the way from earthquake scenarios to a fragility curve.
 //!
 //! # What is where
 //!

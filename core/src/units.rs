@@ -45,7 +45,7 @@ const BEGINNINGS: [(&str, &[&str]); 2] = [
 
 /// Name, quantity, value, and other spellings as normalised by [`Unit::parse`].
 #[rustfmt::skip]
-const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
+const UNITS: [(&str, Quantity, f64, &[&str]); 39] = [
     ("g", Acceleration, G_M_S2, &["gs"]),
     ("%g", Acceleration, 0.01 * G_M_S2, &["%/g"]),
     ("g/10", Acceleration, 0.1 * G_M_S2, &[]),
@@ -75,6 +75,7 @@ const UNITS: [(&str, Quantity, f64, &[&str]); 38] = [
     ("us", Time, 1e-6, &["\u{3bc}s"]),
     ("min", Time, 60.0, &["mins", "minutes"]),
     ("years", Time, 365.25 * 86400.0, &["year", "yr", "yrs"]),
+    ("ka", Time, 1000.0 * 365.25 * 86400.0, &["kyr"]),
     ("rad", Angle, 1.0, &[]),
     ("deg", Angle, std::f64::consts::PI / 180.0, &["degrees", "\u{b0}"]),
     ("rad/s", AngularFrequency, 1.0, &[]),

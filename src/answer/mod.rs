@@ -171,12 +171,13 @@ fn of_list(answers: &[AnswerOfObject], question: &Question) -> ListProbabilities
             _ => answer.p.p_overturning,
         };
         let count = answer.object.count.unwrap_or(1.0);
-        Some(ListedObject { object, count, overturning, budget })
+        let years = answer.rates.years.unwrap_or_default();
+        Some(ListedObject { object, count, years, overturning, budget })
     });
     let listed: Vec<ListedObject> = listed.collect();
     let are_several = listed.iter().map(|of| of.count).sum::<f64>() > 1.0;
     match question {
-        Question::Hazard { site, years, .. } if are_several => site.list(&listed, *years),
+        Question::Hazard { site, .. } if are_several => site.list(&listed),
         Question::Motion(motion) if are_several => motion.list(&listed),
         _ => ListProbabilities::default(),
     }
@@ -191,6 +192,7 @@ impl Answer {
             return Ok((answer, None));
         }
         let (rocking, mut warnings) = models(object)?;
+        warnings.extend(object.is_round.then_some(Warning::RoundBase));
         let weaker = &rocking.directions[0];
         answer.object = ObjectColumns::new(object, Some(weaker));
         let (budget, magnitude, motion) = match question {
@@ -202,8 +204,8 @@ impl Answer {
                 (budget, magnitude, motion.peaks(&weaker.model))
             }
             Question::Hazard { site, years, target } => {
-                let rates = site.rates(&rocking);
-                (answer.rates, answer.p) = RateColumns::new(&rates, *years);
+                let (rates, years) = (site.rates(&rocking), object.years.unwrap_or(*years));
+                (answer.rates, answer.p) = RateColumns::new(&rates, years);
                 if let Some(p) = *target {
                     let with_models = |object: &Object| Some(models(object).ok()?.0);
                     let (rate, target) = (rates.states.overturning, -(-p).ln_1p() / years);

@@ -38,6 +38,8 @@ pub struct ObjectColumns {
     pub eta: Option<f64>,
     /// What it stands on, if that sets eta.
     pub base: Option<Base>,
+    /// Of an object on a pedestal: fixed, it is one body with it; else it is loose on it.
+    pub is_fixed_to_pedestal: Option<bool>,
     /// Rebound from a wall behind it.
     pub wall_rebound: Option<f64>,
     /// tan(alpha): with less friction it slides.
@@ -74,6 +76,7 @@ impl ObjectColumns {
             alpha_rad: structure.map(|structure| structure.alpha_rad),
             eta: structure.map(|structure| structure.eta),
             base: object.place.base,
+            is_fixed_to_pedestal: object.place.fixed_to_pedestal,
             wall_rebound: structure.and_then(|structure| structure.rebound),
             friction: structure.map(|structure| structure.alpha_rad.tan()),
             is_friction_known: Some(object.place.friction.is_some()),

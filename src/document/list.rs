@@ -19,7 +19,7 @@ const NAMED: usize = 4;
 pub fn document(table: &AnswerTable) -> Document {
     let Some(worst) = table.rows.first() else { return Document::default() };
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
-    let when = worst.when().unwrap_or_default();
+    let when = Answer::when_of_all(&table.rows);
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
     let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
     let all = pieces(&table.rows);
@@ -187,7 +187,7 @@ fn expected_number(some: &[&Answer]) -> String {
 type Cell = fn(&Answer) -> String;
 
 /// The columns behind the list's own; of those in the time of exposure there is an @.
-const COLUMNS: [(&str, Cell); 19] = [
+const COLUMNS: [(&str, Cell); 20] = [
     ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
     ("centre of mass, m", |answer| answer.object.raised_centre_m().map_or(String::new(), length)),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
@@ -205,6 +205,7 @@ const COLUMNS: [(&str, Cell); 19] = [
     ("beta", |answer| of_fragility(answer, 4)),
     ("over PGA half at", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 0))),
     ("over PGA, limits", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 1))),
+    ("years", |answer| answer.rates.years.map_or(String::new(), plain)),
     ("anchors, or a base of", base),
     ("not assessed", |answer| if answer.is_answered() { String::new() } else { answer.reason() }),
 ];
@@ -221,7 +222,7 @@ const ALWAYS: [&str; 8] = [
     "anchors, or a base of",
     "not assessed",
 ];
-const UNSAID: [&str; 2] = ["place", "file"];
+const UNSAID: [&str; 3] = ["place", "file", "years"];
 
 /// The answers, and what is the same for all objects.
 fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {

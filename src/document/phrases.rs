@@ -54,7 +54,11 @@ impl ObjectColumns {
             (None, Some(1.0)) => "on the roof".to_string(),
             (None, Some(level)) => format!("{} % up the building", fixed(100.0 * level, 0)),
         };
-        floor + self.wall_rebound.map_or("", |_| " at a wall")
+        let pedestal = self.is_fixed_to_pedestal.map_or("", |is_fixed| match is_fixed {
+            true => " with its pedestal",
+            false => " on a pedestal",
+        });
+        floor + self.wall_rebound.map_or("", |_| " at a wall") + pedestal
     }
 
     /// The place in a few words, for rows: `ground`, `floor 3 of 5`, `60 % up`.
@@ -119,6 +123,15 @@ impl Answer {
         }
     }
 
+    /// The time of exposure of all, or that each has its own.
+    pub fn when_of_all(answers: &[Answer]) -> String {
+        let times: BTreeSet<String> = answers.iter().filter_map(Answer::when).collect();
+        match times.len() > 1 && answers.iter().any(|answer| answer.rates.years.is_some()) {
+            true => "in the years of each".to_string(),
+            false => times.into_iter().next().unwrap_or_default(),
+        }
+    }
+
     fn rocks(&self) -> bool {
         self.p.p_rocking.is_some_and(|p| p > 0.0)
     }
@@ -179,7 +192,9 @@ impl Answer {
             let anchored = "Anchored, it would not rock.";
             return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
         };
-        let depth = self.object.depth_m.filter(|_| self.rates.bases.target_width_m.value.is_none());
+        let has_other_sides = self.object.depth_m != self.object.width_m;
+        let is_over_depth = has_other_sides && self.rates.bases.target_width_m.value.is_none();
+        let depth = self.object.depth_m.filter(|_| is_over_depth);
         let depth = depth.map_or(String::new(), |depth| {
             let depth = number::length(depth);
             format!("No width{whose} reaches {target}: it then falls over its depth ({depth} m). ")
@@ -271,7 +286,9 @@ pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
         UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
         UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
         UncertaintySource::Wall => ["rebound from the wall", "its measured value", "--wall"],
-        UncertaintySource::Object => ["centre of mass", "weighing", "--centre-height-sd"],
+        UncertaintySource::Object => {
+            ["centre of mass", "weighing or a tilt test", "--centre-height-sd, --alpha-sd"]
+        }
         UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
         UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],
     }

@@ -56,7 +56,8 @@ pub fn read(path: &Path, reader: &mut Reader, defaults: &ListDefaults) -> Result
 pub fn in_rows(grid: &Grid, others: &[usize]) -> Result<(Vec<Object>, Warnings, Vec<Meaning>)> {
     let mut list = List::new(grid, &ListDefaults::default())?;
     others.iter().for_each(|at| list.columns[*at] = Role::Other);
-    Ok((list.objects(), list.doubts(), list.meanings()))
+    let objects = list.objects().into_iter().map(Object::on_pedestal).collect();
+    Ok((objects, list.doubts(), list.meanings()))
 }
 
 impl List<'_> {
@@ -253,6 +254,29 @@ impl List<'_> {
         self.cell(row, Role::Storey).or(self.cell(row, Role::Known(Field::Level))).is_some()
     }
 
+    fn is_on_pedestal(&self, row: usize) -> bool {
+        use Field::{FixedToPedestal, PedestalDepth, PedestalHeight, PedestalMass, PedestalWidth};
+        let fields = [FixedToPedestal, PedestalWidth, PedestalDepth, PedestalHeight, PedestalMass];
+        fields.iter().any(|field| self.cell(row, Role::Known(*field)).is_some())
+    }
+
+    /// Whether a cell says yes or no, or years, which it then sets.
+    fn set_words(&self, row: usize, at: usize, object: &mut Object) -> Result<bool, String> {
+        let (is, is_missing) =
+            (|meaning| means(self.grid.cell(row, at), meaning), self.grid.value(row, at).is_none());
+        match self.columns[at] {
+            Role::Known(Field::Wall) if is("free") => {}
+            Role::Known(Field::Wall) if is("yes") => object.place.wall = Some(Wall::Yes),
+            Role::Known(Field::FixedToPedestal) | Role::Years if is_missing => {}
+            Role::Known(Field::FixedToPedestal) if is("yes") || is("free") => {
+                object.place.fixed_to_pedestal = Some(is("yes"));
+            }
+            Role::Years => object.years = Some(self.years(row, at)?),
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
     fn object(&self, row: usize) -> Result<Object, String> {
         let mut object = Object::default();
         for (at, column) in self.columns.iter().enumerate() {
@@ -260,11 +284,8 @@ impl List<'_> {
             let is_round = self.cell(row, Role::Diameter).is_some();
             let fields: &[Field] = match column {
                 _ if cell.is_empty() => continue,
-                Role::Known(Field::Wall) if means(cell, "free") => continue,
-                Role::Known(Field::Wall) if means(cell, "yes") => {
-                    object.place.wall = Some(Wall::Yes);
-                    continue;
-                }
+                _ if self.set_words(row, at, &mut object)? => continue,
+                Role::Mass if self.is_on_pedestal(row) => &[Field::Mass],
                 Role::Known(Field::Width | Field::Depth)
                     if is_round && self.grid.value(row, at).is_some() =>
                 {
@@ -290,6 +311,7 @@ impl List<'_> {
             if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
                 continue;
             }
+            object.is_round |= *column == Role::Diameter;
             let size = fields.first().map_or(Ok(1.0), |field| self.size(at, *field))?;
             let text = match self.grid.number(row, at) {
                 Ok(number) => rounded(size * number).to_string(),
@@ -304,6 +326,15 @@ impl List<'_> {
         }
         self.put_on_floor(row, &mut object)?;
         Ok(object)
+    }
+
+    fn years(&self, row: usize, at: usize) -> Result<f64, String> {
+        let heading = &self.grid.headings[at];
+        let year = Unit::parse("years").map_or(f64::NAN, |unit| unit.si);
+        let years = self.grid.number(row, at).map_err(|error| error.to_string())?;
+        let years = years * heading.unit.map_or(1.0, |unit| rounded(unit.si / year));
+        let expected = || format!("{} is {years} years; expected 0.001 to 1,000,000", heading.text);
+        Some(years).filter(|years| (1e-3..=1e6).contains(years)).ok_or_else(expected)
     }
 
     /// The size of the unit of a column in m, s, rad or rad/s.

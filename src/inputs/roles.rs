@@ -16,11 +16,13 @@ pub enum Role {
     /// Of a round base.
     Diameter,
     Count,
+    /// Its own time of exposure.
+    Years,
     /// A number that counts objects or names them.
     Number,
     /// The unit of lengths.
     Unit,
-    /// Known, and not needed.
+    /// Known, and needed on a pedestal alone.
     Mass,
     /// What holds an object.
     Held,
@@ -66,8 +68,10 @@ pub fn meaning(heading: &Heading) -> Role {
         words.iter().any(|word| holds(word))
             && words.iter().all(|word| holds(word) || is_one_of(word, "of-anchors"))
     };
-    if let Some(role) = known(name).or_else(|| known(&words.join("-"))) {
+    if let Some(role) = of_pedestal(name).or_else(|| known(name)).or_else(|| known(&words.join("-"))) {
         role
+    } else if heading.unit.is_some_and(|unit| unit.name == "ka") && is_one_of(name, "age") {
+        Role::Years
     } else if quantity == Some(Quantity::Counts) {
         Role::Count
     } else if let Some(role) = words.first().and_then(|word| known(word)).filter(is_one_thing) {
@@ -95,14 +99,36 @@ pub fn meaning(heading: &Heading) -> Role {
     }
 }
 
+/// The role of a heading with a word for a pedestal, perhaps as the beginning of another: Sockelbreite.
+fn of_pedestal(name: &str) -> Option<Role> {
+    let pedestal = synonyms("pedestal").find(|known| name.split('-').any(|word| word.starts_with(known)))?;
+    let rest = name.replacen(pedestal, "", 1);
+    let words: Vec<&str> = rest.split('-').filter(|word| !word.is_empty()).collect();
+    let is_part = |word: &&str| known(word).is_some() || is_one_of(word, "of-sizes");
+    let is_link = |word: &&str| is_one_of(word, "of-anchors");
+    let is_held = words.iter().any(|word| holds(word)) && words.iter().any(is_link);
+    if is_held && words.iter().all(|word| holds(word) || is_link(word)) {
+        return Some(Role::Known(Field::FixedToPedestal));
+    }
+    words.iter().filter(|_| words.iter().all(is_part)).find_map(|word| match known(word)? {
+        Role::Known(Field::Width) => Some(Role::Known(Field::PedestalWidth)),
+        Role::Known(Field::Depth) => Some(Role::Known(Field::PedestalDepth)),
+        Role::Known(Field::Height) => Some(Role::Known(Field::PedestalHeight)),
+        Role::Mass => Some(Role::Known(Field::PedestalMass)),
+        Role::Diameter => Some(Role::Unclear),
+        _ => None,
+    })
+}
+
 pub fn holds(word: &str) -> bool {
     synonyms("holds").any(|start| word.starts_with(start))
 }
 
 fn known(name: &str) -> Option<Role> {
-    const OTHERS: [(&str, Role); 8] = [
+    const OTHERS: [(&str, Role); 9] = [
         ("diameter", Role::Diameter),
         ("count", Role::Count),
+        ("exposure", Role::Years),
         ("number", Role::Number),
         ("unit", Role::Unit),
         ("mass", Role::Mass),
@@ -111,6 +137,7 @@ fn known(name: &str) -> Option<Role> {
         ("building", Role::Building),
     ];
     let fields = Field::VARIANTS.iter().map(|field| (field.into(), Role::Known(*field)));
-    let mut all = fields.chain(OTHERS).filter(|(meaning, _)| name == *meaning || is_one_of(name, meaning));
+    let mut all =
+        OTHERS.into_iter().chain(fields).filter(|(meaning, _)| name == *meaning || is_one_of(name, meaning));
     all.next().map(|(_, role)| role).filter(|_| !name.is_empty())
 }

@@ -3,12 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use arrow_array::builder::{Decimal128Builder, FixedSizeListBuilder, Float16Builder, ListBuilder};
+use arrow_array::builder::{FixedSizeListBuilder, Float16Builder};
 use arrow_array::builder::{PrimitiveBuilder, UInt16Builder, UInt32Builder};
 use arrow_array::types::{ArrowPrimitiveType, Float16Type};
-use arrow_array::{
-    ArrayRef, Decimal128Array, Float16Array, Int32Array, Int64Array, RecordBatch, UInt64Array,
-};
+use arrow_array::{ArrayRef, Decimal128Array, Float16Array, Int64Array, RecordBatch, UInt64Array};
 use arrow_schema::{DataType, Field, Schema};
 use parquet::basic::Compression;
 use parquet::file::properties::WriterProperties;
@@ -48,26 +46,6 @@ fn response(columns: Vec<(&'static str, ArrayRef)>) -> Value {
 
 fn decimal(value: i128, precision: u8, scale: i8) -> ArrayRef {
     Arc::new(Decimal128Array::from(vec![value]).with_precision_and_scale(precision, scale).unwrap())
-}
-
-#[test]
-fn numbers_of_every_type_are_read() {
-    let expected = response(Vec::new());
-    let decimals = |precision: u8| -> ArrayRef {
-        let kind = DataType::Decimal128(precision, 2);
-        let mut list = ListBuilder::new(Decimal128Builder::new().with_data_type(kind));
-        sine().iter().for_each(|a| list.values().append_value((100.0 * a).round() as i128));
-        list.append(true);
-        Arc::new(list.finish())
-    };
-    let steps = [decimal(1, 2, 2), decimal(10_000, 18, 6), decimal(1_000_000_000_000_000_000, 38, 20)];
-    let samples = [4, 12, 30].map(|precision| ("acceleration_m_s2", decimals(precision)));
-    for column in steps.map(|step| ("dt_s", step)).into_iter().chain(samples) {
-        let found = response(vec![column]);
-        for column in ["pga_m_s2", "pgv_m_s", "edp", "outcome"] {
-            assert_eq!(found[column], expected[column], "{column}");
-        }
-    }
 }
 
 /// Numbers of this type, in a list.
@@ -146,43 +124,6 @@ fn files_of_pandas_and_pyarrow_are_read() {
         edp()
     });
     assert!(pyarrow[0] == pyarrow[1] && pyarrow[0].len() == 4, "{pyarrow:?}");
-}
-
-/// Two scenarios, the second with another value in a column.
-fn scenarios(column: &str, value: f64) -> Vec<(&'static str, ArrayRef)> {
-    let own = [("mw", 6.5), ("re_km", 9.0), ("vp_m_s", 0.5), ("tp_s", 1.2), ("gamma", 1.9), ("nu_rad", 1.8)];
-    let count: ArrayRef = Arc::new(Int32Array::from(vec![0, 1]));
-    let ids: ArrayRef = Arc::new(Int64Array::from(vec![0, 1]));
-    let second = |(name, own): (&'static str, f64)| if name == column { value } else { own };
-    let columns = own.map(|own| (own.0, numbers(&[own.1, second(own)])));
-    let counts = [("scenario_id", ids), ("cell", count.clone()), ("sample", count)];
-    counts.into_iter().chain(columns).collect()
-}
-
-#[test]
-fn a_scenario_that_cannot_be_is_named_with_its_row() {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scenarios.parquet");
-    write(&path, scenarios("mw", 6.5));
-    succeed(folder.path(), "synthesize-motions --dt 0.02");
-    let synthesize = "synthesize-motions --out other.parquet --dt 0.02";
-    for (column, values) in [
-        ("mw", [60.0, -1.0, f64::NAN, f64::INFINITY]),
-        ("tp_s", [-2.0, 0.0, 1e6, f64::NAN]),
-        ("nu_rad", [f64::NAN, f64::INFINITY, 1e300, -1e9]),
-    ] {
-        for value in values {
-            write(&path, scenarios(column, value));
-            fail(folder.path(), synthesize, 1, &["scenarios.parquet", "row 2", column, "expected"]);
-            assert!(!folder.path().join("other.parquet").exists(), "{column} {value}");
-        }
-    }
-    // Possible, but too long at this step.
-    let mut long = scenarios("tp_s", 900.0);
-    long.retain(|(name, _)| *name != "gamma");
-    long.push(("gamma", numbers(&[1.9, 19.0])));
-    write(&path, long);
-    fail(folder.path(), "synthesize-motions --out other.parquet --dt 0.0005", 1, &["scenario 1", "--dt"]);
 }
 
 #[test]

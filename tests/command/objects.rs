@@ -41,6 +41,8 @@ fn what_is_uncertain_widens_the_limits_and_nothing_else_of_a_small_error() {
     let surveyed = row("--width 0.8 --height 2.2 --period 0.6 --level 1 --period-sd 0.02");
     assert!(plain["error_floor"].is_null());
     assert!(number(&floor, "error_floor") > 5.0 * number(&surveyed, "error_floor"));
+    let tilted = row("--width 0.8 --height 2.2 --alpha-sd 2deg");
+    assert!(number(&tilted, "error_object") > 0.3, "{tilted}");
     let [before_wall, soft] =
         ["--wall", "--wall 0.1"].map(|wall| row(&format!("--width 0.8 --height 2.2 {wall}")));
     assert!(number(&before_wall, "error_wall") > 0.1 && soft["error_wall"].is_null());
@@ -76,6 +78,13 @@ fn the_base_for_a_target_meets_it() {
     // Where the width is enough, the depth stays.
     let deep = row("--width 0.5 --depth 1.2 --height 1.9 --target 0.5%");
     assert!(deep["target_width_m"].is_f64() && deep["target_sides_m"].is_null());
+    // It adds nothing, and so is no reason to doubt.
+    assert!(deep["warnings"].is_null(), "{deep}");
+    // Equal sides stay equal, and none is smaller than it is.
+    let square = row("--width 0.38 --depth 0.38 --height 1.8 --target 1%");
+    assert!(square["target_width_m"].is_null() && number(&square, "target_sides_m") > 0.5);
+    let safe = row("--width 0.7 --depth 0.9 --height 1.9 --target 50%");
+    assert!(near(number(&safe, "target_width_m"), 0.7, 1e-9));
 }
 
 #[test]
@@ -169,6 +178,24 @@ fn the_same_object_is_found_in_two_lists() {
         assert!(told.iter().all(|told| page.contains(told)), "{files}: {told:?}");
         assert_eq!(page.contains("changed"), !page.contains("alternatives"), "{files}");
     }
+}
+
+#[test]
+fn options_fill_what_a_list_leaves_open_and_each_rock_has_its_years() {
+    let list =
+        "Rock,p (rad/s),alpha (deg),alpha sd (deg),age (ka),eta\na,2.1,14,2,12.5,\nb,3.4,12,2,18,0.9\n";
+    let folder = folder(&[("list.csv", list), ("vase.csv", "name,diameter,height\nvase,0.3,1.6\n")]);
+    let call = format!("--structures list.csv {HAZARD}");
+    let all = evaluated(folder.path(), &format!("{call} --eta housner"));
+    let housner = 1.0 - 1.5 * 14_f64.to_radians().sin().powi(2);
+    assert!(near(number(&all[0], "eta"), housner, 1e-9) && number(&all[1], "eta") == 0.9);
+    for (row, years) in all.iter().zip([12_500.0, 18_000.0]) {
+        let p = 1.0 - (-years * number(row, "overturning_per_year")).exp();
+        assert!(number(row, "years") == years && near(number(row, "p_overturning"), p, 1e-9));
+    }
+    fail(folder.path(), &format!("evaluate {call} --width 0.5"), 2, &["--width", "--structures"]);
+    let vase = &evaluated(folder.path(), &format!("--structures vase.csv {HAZARD} --base stone"))[0];
+    assert!(vase["base"] == "stone" && vase["warnings"].as_str().is_some_and(|of| of.contains("round")));
 }
 
 #[test]

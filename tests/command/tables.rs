@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::common::{evaluated, fail, folder, near, number, rows, succeed};
+use super::common::{evaluated, fail, folder, near, number};
 use super::packed::{gzip, xlsx_of, zip};
 
 /// A workbook with two columns, of which the second may be shown as percent.
@@ -88,27 +88,6 @@ fn all_that_a_file_unpacks_to_has_one_limit() {
     fail(folder.path(), &table("large.gz"), 1, &["large.gz", "200 MB"]);
     fail(folder.path(), &table("two.zip"), 1, &["two.zip", "a.csv, b.csv"]);
     fail(folder.path(), "import-motions large.zip --out m.parquet", 1, &["large.zip", "200 MB"]);
-}
-
-#[test]
-fn the_columns_of_a_site_are_found_by_their_headings() {
-    let folder = folder(&[]);
-    succeed(folder.path(), "sample-scenarios --mw 6.5 --re 5 --samples 1");
-    let synthesize = "synthesize-motions --dt 0.02 --site site.csv --out m.parquet --force";
-    let write = |site: &str| std::fs::write(folder.path().join("site.csv"), site).unwrap();
-    let motions = |site: &str| {
-        write(site);
-        succeed(folder.path(), synthesize);
-        rows(folder.path(), "m.parquet")
-    };
-    let expected = motions("frequency_hz,factor\n0.1,1\n10,2\n");
-    for same in ["factor,frequency_hz\n1,0.1\n2,10\n", "0.1,1\n10,2\n"] {
-        assert!(motions(same) == expected, "{same}");
-    }
-    for wrong in ["frequency\n1\n2\n", "period_s,factor\n0.1,1\n1,2\n"] {
-        write(wrong);
-        fail(folder.path(), synthesize, 1, &["site.csv", "frequency_hz"]);
-    }
 }
 
 #[test]

@@ -4,7 +4,7 @@ use proptest::collection;
 use proptest::prelude::*;
 use rockfrag::inputs::objects::{self, ListDefaults};
 use rockfrag::inputs::{InputError, Meaning, Reader, Reading, Rename};
-use rockfrag_core::object::{Base, Object, Wall, structure_warnings};
+use rockfrag_core::object::{Base, Object, Place, Wall, structure_warnings};
 use rockfrag_core::warning::Warning;
 
 use super::packed::csv;
@@ -85,6 +85,23 @@ fn walls_and_bases_are_words() {
         [(Some(Wall::Yes), Some(Base::Timber)), (None, None), (Some(Wall::Rebound(0.3)), Some(Base::Stone))];
     assert_eq!(found, expected);
     assert!(reason("name,width,height,base\na,.4,1.8,0.5\n").contains("concrete, stone"));
+    for headings in [
+        "Pedestal width;Depth of pedestal;Pedestal height;Pedestal mass;Fixed to pedestal",
+        "Sockelbreite;Sockeltiefe;Sockelhöhe;Sockelgewicht;Am Sockel befestigt",
+        "Larghezza piedistallo;Profondità piedistallo;Altezza piedistallo;Peso piedistallo;Fissa al piedistallo",
+        "Largeur socle;Profondeur socle;Hauteur socle;Masse du socle;Fixé au socle",
+        "Ancho pedestal;Fondo pedestal;Altura pedestal;Peso pedestal;Fijado al pedestal",
+    ] {
+        let list = format!("name;width;height;mass;{headings}\na;.3;.6;8;.4;.5;.9;150;sì\nb;.3;.6;;;;;;\n");
+        let [a, b] = [0, 1].map(|row| text(&list)[row].clone());
+        let found = [a.place.pedestal_width, a.place.pedestal_depth, a.place.pedestal_height];
+        assert_eq!(found, [0.4, 0.5, 0.9].map(Some), "{list}");
+        assert_eq!([a.place.pedestal_mass, a.place.mass], [150.0, 8.0].map(Some), "{list}");
+        assert!(a.place.fixed_to_pedestal == Some(true) && b.place == Place::default());
+        assert!(a.on_pedestal().refused.unwrap().to_string().ends_with("missing: depth"));
+    }
+    let years = |heading: &str| text(&format!("name,width,height,{heading}\na,.3,.6,12.5\n"))[0].years;
+    assert_eq!(["Age (ka)", "years", "Age (years)"].map(years), [Some(12_500.0), Some(12.5), None]);
 }
 
 #[test]

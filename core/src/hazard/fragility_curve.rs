@@ -14,25 +14,6 @@ use crate::statistics::numerics::{bisect_first_true, equal_ratios};
 use crate::statistics::{Interval, least_squares, normal};
 
 /// Motions as recorded at generic sites, conditional on one peak, and what narrows the other.
-///
-/// ```
-/// use rockfrag_core::fragility::{MotionKind, Peak};
-/// use rockfrag_core::hazard::GenericSites;
-/// use rockfrag_core::object::{Object, RockingObject};
-///
-/// let cabinet = Object::block("cabinet", 0.5, 2.0);
-/// let cabinet = RockingObject::uncalibrated(&cabinet, MotionKind::Recorded, 0.10)?;
-/// let sites = GenericSites { over: Peak::Pga, mw: Some(6.5), vs30_m_s: None, ratio_s: None };
-/// let fragility = sites.fragility(&cabinet);
-/// // The PGA at which half of the motions overturn it, m/s2; and how well a lognormal curve describes it.
-/// assert!(fragility.overturning.theta.value.is_some_and(|pga| pga > 5.0));
-/// assert!(fragility.overturning.largest_error.is_some_and(|error| error < 0.1));
-/// for point in &fragility.points {
-///     let [overturning, failure] = [point.p.overturning.value.unwrap(), point.p.failure.value.unwrap()];
-///     assert!(overturning <= failure + 1e-12);
-/// }
-/// # Ok::<(), rockfrag_core::object::ObjectError>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GenericSites {
     /// The peak that motions are conditional on.

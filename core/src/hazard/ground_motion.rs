@@ -12,23 +12,6 @@ use crate::statistics::Interval;
 use crate::statistics::normal::Z_95;
 
 /// A motion: its peaks, and the magnitude of the earthquake if it is known.
-///
-/// ```
-/// use rockfrag_core::fragility::MotionKind;
-/// use rockfrag_core::hazard::GroundMotion;
-/// use rockfrag_core::object::{Object, RockingObject};
-///
-/// // On the third of five floors of a building of 0.5 s; it may also fall over its depth.
-/// let mut cabinet = Object::block("cabinet", 0.5, 1.9);
-/// cabinet.shape.depth = Some(0.8);
-/// (cabinet.place.level, cabinet.place.period) = (Some(0.6), Some(0.5));
-/// let object = RockingObject::uncalibrated(&cabinet, MotionKind::Recorded, 0.10)?;
-/// // A motion of the ground of 0.3 g; its PGV is that of such motions.
-/// let motion = GroundMotion { pga_m_s2: Some(2.9), pgv_m_s: None, mw: Some(6.5), vs30_m_s: None };
-/// let p = motion.probabilities(&object).states.overturning.estimate().expect("it rocks, and has a PGV");
-/// assert!(p.low < p.value && p.value < p.high);
-/// # Ok::<(), rockfrag_core::object::ObjectError>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GroundMotion {
     pub pga_m_s2: Option<f64>,

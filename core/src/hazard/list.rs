@@ -9,11 +9,13 @@ use crate::statistics::Interval;
 use crate::statistics::normal::Z_95;
 use strum::VariantArray;
 
-/// An object of a list: how often it is there, and its annual rate or its probability of overturning.
+/// An object of a list: how often it is there, how long at a site, and its annual rate or its probability
+/// of overturning.
 #[derive(Debug, Clone, Copy)]
 pub struct ListedObject<'a> {
     pub object: &'a RockingObject,
     pub count: f64,
+    pub years: f64,
     pub overturning: Interval<Option<f64>>,
     pub budget: &'a Budget,
 }
@@ -27,13 +29,13 @@ pub struct ListProbabilities {
 }
 
 impl Site {
-    /// In so many years. What is unknown of the site moves all objects, what is unknown of an object moves it
-    /// alone.
-    pub fn list(&self, list: &[ListedObject], years: f64) -> ListProbabilities {
+    /// In the last years of each. What is unknown of the site moves all objects, what is unknown of an object
+    /// moves it alone.
+    pub fn list(&self, list: &[ListedObject]) -> ListProbabilities {
         let list = may_overturn(list);
         let number = |listed: &ListedObject, change: f64| {
             let rate = listed.overturning.value.unwrap_or(0.0) * (Z_95 * change).exp();
-            listed.count * probability_in_years(rate, years)
+            listed.count * probability_in_years(rate, listed.years)
         };
         let sum: f64 = list.iter().map(|listed| number(listed, 0.0)).sum();
         // How far each unknown moves the number: one of the site is the same for all objects.
@@ -55,15 +57,31 @@ impl Site {
         if list.is_empty() {
             return ListProbabilities::default();
         }
-        let SiteRates { states, budget: mut of_any, .. } = self.rates(&any_of(&list));
-        of_any.changes.extend(budget.changes.iter().filter(|of| !of.source.is_of_site()));
-        let rates = states.overturning.value.zip(states.rocking.value);
-        let rate = rates.map_or(states.overturning, |(rate, most)| of_any.limit_rate(rate, most).into());
+        let own = budget.changes.iter().copied().filter(|of| !of.source.is_of_site());
         let count = list.iter().map(|listed| listed.count).sum();
         ListProbabilities {
-            at_least_one: rate.map(|rate| probability_in_years(rate, years)),
+            at_least_one: self.falls(&list, &own.collect::<Vec<_>>()).map(|n| probability_in_years(n, 1.0)),
             expected_number: budget.limit_rate(sum, count).into(),
         }
+    }
+
+    /// The mean number of motions of which each overturns one or more of the objects that are there: over
+    /// each span of years those with an exposure as long. `own` is unknown of the objects.
+    fn falls(&self, list: &[ListedObject], own: &[LowHigh<f64>]) -> Interval<Option<f64>> {
+        let mut ends: Vec<f64> = list.iter().map(|listed| listed.years).collect();
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let (mut falls, mut start) = (Interval::exact(0.0), 0.0);
+        for end in ends {
+            let there: Vec<_> = list.iter().copied().filter(|listed| listed.years >= end).collect();
+            let SiteRates { states, budget: mut of_any, .. } = self.rates(&any_of(&there));
+            of_any.changes.extend(own);
+            let rates = states.overturning.value.zip(states.rocking.value);
+            let Some((rate, most)) = rates else { return Interval::default() };
+            falls = falls.zip(of_any.limit_rate(rate, most), |sum, rate| sum + (end - start) * rate);
+            start = end;
+        }
+        falls.into()
     }
 }
 

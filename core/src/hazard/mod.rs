@@ -1,19 +1,4 @@
 //! Seismic hazard at a site, and the annual rates at which objects rock, fail and overturn there.
-//!
-//! ```text
-//! curve               annual rate of exceedance of one intensity; the convolution integral
-//! pgv_pga             PGV / PGA of the motions of a site: by the curves of both, or by ground-motion models
-//! ground              ground for which the routes to PGV were not judged
-//! rates               annual rates of the limit states of a structure, over a curve or over pairs of peaks
-//! budget              the sources of uncertainty, and the limits by them
-//! ground_motion       the limit states under one motion, with limits
-//! conditional_motions the motions conditional on PGA or PGV, and their uncertainty
-//! list                at least one of several objects, and their expected number
-//! share               the shares of a rate by intensity
-//! site                the rates of a structure at a site, with limits and warnings
-//! target              the base with which the rate of overturning is a target, all else unchanged
-//! fragility_curve     the probabilities of an object over one peak, with limits
-//! ```
 
 mod budget;
 mod conditional_motions;

@@ -59,12 +59,14 @@ impl Site {
     ) -> Bases {
         let ln_margin = rate.value.zip(rate.high).map_or(0.0, |(value, high)| (high / value).ln());
         let mut bases = Bases::default();
-        for base in [Base::Width, Base::Sides] {
+        // Equal sides stay equal.
+        let first = usize::from(object.shape.width == object.shape.depth);
+        for base in [Base::Width, Base::Sides].into_iter().skip(first) {
             if bases.target_width_m.high.is_none()
-                && let Some([least, start, most]) = sides(object, base)
+                && let Some([least, most]) = sides(object, base)
             {
                 let search = Search { site: self, object, with_models, base, target, least, most };
-                let estimate = search.ln_side(start, Site::overturning);
+                let estimate = search.ln_side(least, Site::overturning);
                 let by_hazard = estimate.is_some() && self.rate_beyond() >= target;
                 let limit = estimate.filter(|_| !by_hazard).and_then(|ln_side| {
                     // The limit is about as far above the rate as for the present object.
@@ -117,9 +119,8 @@ impl Base {
     }
 }
 
-/// ln of the least side, of the present side or the nearest possible, and of the largest; none of both sides
-/// without a depth.
-fn sides(object: &Object, base: Base) -> Option<[f64; 3]> {
+/// ln of the present side, or the nearest possible, and of the largest; none of both sides without a depth.
+fn sides(object: &Object, base: Base) -> Option<[f64; 2]> {
     let shape = &object.shape;
     let (width, height) = shape.width.zip(shape.height)?;
     let side = match base {
@@ -129,7 +130,9 @@ fn sides(object: &Object, base: Base) -> Option<[f64; 3]> {
     let centre_height = shape.centre_height.unwrap_or(0.5 * height);
     let nearer = 1.0 - shape.centre_offset.map_or(0.0, |offset| 2.0 * offset.abs() / width);
     let [least, most] = SLENDERNESSES.map(|alpha| (2.0 * centre_height * alpha.tan() / nearer).ln());
-    Some([least, side.ln().clamp(least, most), most])
+    // Never less than it is.
+    let least = least.max(side.ln());
+    Some([least, most.max(least)])
 }
 
 /// A search in ln of the width, or of the smaller side: ln rate is almost linear in it.

@@ -22,14 +22,6 @@ pub enum Design {
 const DIMENSIONS: usize = 4;
 
 /// The magnitude-distance grid and how its cells are sampled (section 2.1.1).
-///
-/// ```
-/// use rockfrag_core::motion::{Design, ScenarioGrid};
-/// let (mw, re_km) = (vec![6.0, 7.0], vec![10.0]);
-/// let grid = ScenarioGrid { mw, re_km, samples: 5, design: Design::Lhs, seed: 42 };
-/// let scenarios = grid.scenarios_of_cell(1);
-/// assert_eq!((grid.cells(), scenarios.len(), scenarios[0].mw), (2, 5, 7.0));
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct ScenarioGrid {
     pub mw: Vec<f64>,

@@ -8,12 +8,6 @@ use super::measures::Oscillator;
 use super::peaks::Peaks;
 
 /// A floor of a building, or the ground: level 0.
-///
-/// ```
-/// use rockfrag_core::motion::{Floor, Peaks};
-/// let ground = Peaks { pga_m_s2: 2.0, pgv_m_s: 0.2 };
-/// assert!(Floor { period_s: 0.5, level: 1.0 }.peaks(ground).pga_m_s2 > ground.pga_m_s2);
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Floor {
     /// First period of the building, s.

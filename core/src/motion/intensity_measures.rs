@@ -11,14 +11,6 @@ use crate::units::G_M_S2;
 
 /// The dimensionless intensity measures of Eq. 13: the last columns of responses.parquet. Those of a period
 /// are missing where the period is.
-///
-/// ```
-/// use rockfrag_core::motion::{Dimension, IntensityMeasures, Peaks};
-/// let block = rockfrag_core::rocking::Structure::new("block", 2.5, 0.2, 0.92)?;
-/// let measures = IntensityMeasures::new(&block, Peaks { pga_m_s2: 3.0, pgv_m_s: 0.5 }, Some(1.2), None);
-/// assert_eq!((measures.im4, measures.im2), (Dimension::Acceleration.dimensionless(3.0, &block), None));
-/// # Ok::<(), rockfrag_core::rocking::StructureError>(())
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct IntensityMeasures {
     /// wp / p.

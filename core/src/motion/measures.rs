@@ -36,13 +36,6 @@ pub struct MotionMeasures {
 }
 
 /// The measures to compute besides those of every motion.
-///
-/// ```
-/// use rockfrag_core::motion::MeasurePlan;
-/// let plan = MeasurePlan { housner: true, sa_periods_s: vec![0.5] };
-/// let measured = plan.measure(&[0.0, 1.0, -2.0, 1.0], 0.01);
-/// assert_eq!((measured.pga_m_s2, measured.sa_m_s2.len()), (2.0, 1));
-/// ```
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MeasurePlan {
     /// Whether to compute the Housner intensity, which takes as long as all others together.

@@ -9,12 +9,6 @@ use super::scenario::Scenario;
 const NEWTON_STEPS: usize = 4;
 
 /// A velocity pulse: a cosine under a raised-cosine envelope.
-///
-/// ```
-/// use rockfrag_core::motion::Pulse;
-/// let pulse = Pulse { amplitude_m_s: 0.8, tp_s: 2.0, gamma: 1.5, nu_rad: 0.0 };
-/// assert_eq!((pulse.velocity_m_s(0.0), pulse.duration_s()), (0.8, 3.0));
-/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pulse {
     /// Amplitude A of Eq. 1, m/s; the largest velocity is A times [`largest_velocity`].

@@ -98,13 +98,6 @@ impl SyntheticMotion {
 
 /// Synthesizes motions, each independent of the motions before. Use one for each thread: it keeps the values
 /// that scenarios of one magnitude and distance share.
-///
-/// ```
-/// use rockfrag_core::motion::{MotionModel, Scenario, Suite, Synthesizer};
-/// let mut synthesizer = Synthesizer::new(MotionModel::default(), &[Suite::Csgm]);
-/// let motion = synthesizer.synthesize(&Scenario::at_quantiles(6.5, 10.0, [0.5; 4]));
-/// assert_eq!((motion.dt_s, motion.samples(Suite::Csgm)), (0.005, &motion.combined[..]));
-/// ```
 pub struct Synthesizer {
     model: MotionModel,
     /// Whether to compute the high frequencies, and the combined motion.

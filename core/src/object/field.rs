@@ -32,12 +32,21 @@ pub enum Field {
     Base,
     Wall,
     EtaSd,
+    AlphaSd,
     CentreHeightSd,
     CentreOffsetSd,
+    Mass,
+    FixedToPedestal,
+    PedestalWidth,
+    PedestalDepth,
+    PedestalHeight,
+    PedestalMass,
 }
 
 const SIDE: &str = "a side above 0 m, up to 50 m: is it in cm or mm?";
 const HEIGHT: &str = "a height above 0 m, up to 100 m: is it in cm or mm?";
+const MASS: &str = "a mass above 0 kg, up to 10 million: another unit?";
+const MASSES: RangeInclusive<f64> = 1e-3..=1e7;
 const SD: &str = "a standard deviation of 0 m or more, up to 100 m: is it in cm?";
 
 /// What the command, lists and messages say of a field.
@@ -54,8 +63,8 @@ pub struct Entry {
 }
 
 impl Field {
-    /// The words of the fields of [`Shape`](super::Shape); the others are of [`Place`](super::Place).
-    pub const OF_SHAPE: [&str; 10] = [
+    /// The words of the fields of [`Shape`](super::Shape) but `eta`; the others are of [`Place`](super::Place).
+    pub const SIZES: [&str; 9] = [
         "width",
         "height",
         "depth",
@@ -65,14 +74,13 @@ impl Field {
         "beam-mass-ratio",
         "p",
         "alpha",
-        "eta",
     ];
 
     /// No rocking structure is taller than 100 m (the piers of the South Rangitikei viaduct have 78 m), has a
     /// semi-diagonal below 3 mm (p 50 rad/s) or above 184 m (p 0.2 rad/s), or is wider than tall (it slides).
     #[rustfmt::skip]
     pub fn entry(self) -> Entry {
-        use Quantity::{Angle, AngularFrequency, Length, Time};
+        use Quantity::{Angle, AngularFrequency, Length, Mass, Time};
         let (symbol, quantity, range, expected, help, set): (_, _, _, _, _, fn(&mut Object, f64)) = match self {
             Field::Width => ("M", Some(Length), 1e-4..=50.0, SIDE,
                 "Width of the base of a block, body or column, m; the smaller side unless --depth is given",
@@ -123,12 +131,27 @@ impl Field {
             Field::EtaSd => ("SD", None, 0.0..=0.5, "a standard deviation from 0 to 0.5",
                 "Standard deviation of eta [default: 0 if eta is given; that of tests if it is computed]",
                 |of, sd| of.place.eta_sd = Some(sd)),
+            Field::AlphaSd => ("RAD", Some(Angle), 0.0..=0.2, "a standard deviation from 0 to 0.2 rad, or as 2deg",
+                "Standard deviation of alpha, as by tilt tests, rad, or in degrees as 2deg [default: 0]",
+                |of, sd| of.place.alpha_sd = Some(sd)),
             Field::CentreHeightSd => ("M", Some(Length), 0.0..=100.0, SD,
                 "Standard deviation of the height of the centre of mass, m",
                 |of, sd| of.place.centre_height_sd = Some(sd)),
             Field::CentreOffsetSd => ("M", Some(Length), 0.0..=100.0, SD,
                 "Standard deviation of the offset of the centre of mass, m",
                 |of, sd| of.place.centre_offset_sd = Some(sd)),
+            Field::Mass => ("KG", Some(Mass), MASSES, MASS, "Mass of the object, beside that of its pedestal, kg",
+                |of, kg| of.place.mass = Some(kg)),
+            Field::FixedToPedestal => ("YES|NO", None, 1.0..=0.0, "yes or no",
+                "Whether it is fixed to its pedestal, as one body, or loose on it", |_, _| {}),
+            Field::PedestalWidth => ("M", Some(Length), 1e-4..=50.0, SIDE, "Width of the pedestal, m",
+                |of, m| of.place.pedestal_width = Some(m)),
+            Field::PedestalDepth => ("M", Some(Length), 1e-4..=50.0, SIDE, "Depth of the pedestal, m",
+                |of, m| of.place.pedestal_depth = Some(m)),
+            Field::PedestalHeight => ("M", Some(Length), 1e-3..=100.0, HEIGHT, "Height of the pedestal, m",
+                |of, m| of.place.pedestal_height = Some(m)),
+            Field::PedestalMass => ("KG", Some(Mass), MASSES, MASS, "Mass of the pedestal, kg",
+                |of, kg| of.place.pedestal_mass = Some(kg)),
         };
         Entry { symbol, quantity, range, expected, help, set }
     }

@@ -23,6 +23,9 @@ pub struct Shape {
     #[serde(skip_serializing_if = "is_zero")]
     pub centre_offset: Option<f64>,
     pub inertia: Option<f64>,
+    /// That in the plane of the depth, where it differs from `inertia` by more than a solid block's.
+    #[serde(skip)]
+    pub inertia_across: Option<f64>,
     pub beam_mass_ratio: Option<f64>,
     pub p: Option<f64>,
     pub alpha: Option<f64>,
@@ -42,9 +45,17 @@ pub struct Place {
     pub wall: Option<Wall>,
     pub eta_sd: Option<f64>,
     #[serde(skip_serializing_if = "is_zero")]
+    pub alpha_sd: Option<f64>,
+    #[serde(skip_serializing_if = "is_zero")]
     pub centre_height_sd: Option<f64>,
     #[serde(skip_serializing_if = "is_zero")]
     pub centre_offset_sd: Option<f64>,
+    pub mass: Option<f64>,
+    pub fixed_to_pedestal: Option<bool>,
+    pub pedestal_width: Option<f64>,
+    pub pedestal_depth: Option<f64>,
+    pub pedestal_height: Option<f64>,
+    pub pedestal_mass: Option<f64>,
 }
 
 /// Whether a number says what its absence says.
@@ -102,6 +113,9 @@ pub struct Object {
     pub name: String,
     /// Number of such objects.
     pub count: Option<u32>,
+    /// Its own time of exposure, years.
+    #[serde(skip)]
+    pub years: Option<f64>,
     #[serde(flatten)]
     pub shape: Shape,
     #[serde(flatten)]
@@ -109,6 +123,9 @@ pub struct Object {
     /// As the list of the object has it: `floor 3 of 5`.
     #[serde(skip)]
     pub floor: Option<String>,
+    /// Of a round base, in place of which there is the square around it.
+    #[serde(skip)]
+    pub is_round: bool,
     /// What else the list of the object says of it, as it is written there: headings and cells.
     #[serde(skip)]
     pub labels: Vec<(String, String)>,
@@ -174,6 +191,9 @@ impl Object {
             "eta" => self.shape.eta = Some(text.parse().map_err(refuse)?),
             "base" => self.place.base = Some(text.to_lowercase().parse().map_err(refuse)?),
             "wall" => self.place.wall = Some(text.parse().map_err(refuse)?),
+            "fixed-to-pedestal" if matches!(text, "yes" | "no" | "true" | "false") => {
+                self.place.fixed_to_pedestal = Some(matches!(text, "yes" | "true"));
+            }
             _ => {
                 let field: Field = name.parse()?;
                 (field.entry().set)(self, field.parse_value(text).map_err(refuse)?);
@@ -191,12 +211,14 @@ impl Object {
     pub fn resized(&self, width_m: f64, depth_m: Option<f64>) -> Object {
         let shape = &self.shape;
         let width = shape.width.unwrap_or(width_m);
-        let (factor, added) = (width_m / width, (width_m * width_m - width * width) / 12.0);
+        let added = |to: f64, from: f64| (to * to - from * from) / 12.0;
+        let across = shape.inertia_across.zip(shape.depth.zip(depth_m));
         let shape = Shape {
             width: Some(width_m),
             depth: depth_m,
-            centre_offset: shape.centre_offset.map(|offset| factor * offset),
-            inertia: shape.inertia.map(|inertia| inertia + added),
+            centre_offset: shape.centre_offset.map(|offset| width_m / width * offset),
+            inertia: shape.inertia.map(|inertia| inertia + added(width_m, width)),
+            inertia_across: across.map(|(inertia, (from, to))| inertia + added(to, from)),
             ..*shape
         };
         Object { shape, ..self.clone() }
@@ -235,8 +257,15 @@ impl Place {
             base: self.base.or(other.base),
             wall: self.wall.or(other.wall),
             eta_sd: self.eta_sd.or(other.eta_sd),
+            alpha_sd: self.alpha_sd.or(other.alpha_sd),
             centre_height_sd: self.centre_height_sd.or(other.centre_height_sd),
             centre_offset_sd: self.centre_offset_sd.or(other.centre_offset_sd),
+            mass: self.mass.or(other.mass),
+            fixed_to_pedestal: self.fixed_to_pedestal.or(other.fixed_to_pedestal),
+            pedestal_width: self.pedestal_width.or(other.pedestal_width),
+            pedestal_depth: self.pedestal_depth.or(other.pedestal_depth),
+            pedestal_height: self.pedestal_height.or(other.pedestal_height),
+            pedestal_mass: self.pedestal_mass.or(other.pedestal_mass),
         }
     }
 

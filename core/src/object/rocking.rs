@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::given::{Object, ObjectError};
 use super::sides::Side;
-use crate::fragility::{Model, MotionKind, RockingDirection};
+use crate::fragility::{Model, MotionKind, RockingDirection, Tau};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
@@ -91,6 +91,8 @@ impl<T: Clone> LowHigh<T> {
 pub const SD_OF_PERIOD: f64 = 0.25;
 /// Below this a coefficient of restitution is more likely a typing error.
 const LOW_ETA: f64 = 0.5;
+/// Share of a probability below which a direction adds nothing to it.
+const LEAST_ADDED: f64 = 0.01;
 
 impl RockingObject {
     /// Joins the [sides](Object::sides) of an object with the model of each, and puts these on its floor.
@@ -168,14 +170,22 @@ impl RockingObject {
         self.directions.iter().flat_map(|direction| structure_warnings(&direction.structure)).collect()
     }
 
-    /// Warnings about hardly possible structures, and about predictions under a motion.
+    /// Warnings about hardly possible structures, and about predictions under a motion: of the weaker
+    /// direction, and of those that add to the probability of overturning.
     pub fn warnings(&self, motion: Peaks) -> Vec<Warning> {
-        let mut warnings = self.structure_warnings();
-        for RockingDirection { structure, model, .. } in
-            self.directions.iter().filter(|_| motion.pga_m_s2 > 0.0)
-        {
+        if motion.pga_m_s2 <= 0.0 {
+            return self.structure_warnings();
+        }
+        let (mut warnings, mut most) = (Vec::new(), 0.0);
+        for RockingDirection { structure, model, .. } in &self.directions {
             let measures = IntensityMeasures::new(structure, motion, None, None);
-            warnings.extend(model.warnings(structure, &measures));
+            let states = model.probabilities(structure, &measures, None, Tau::Averaged).limit_states();
+            let p = states.overturning.map_or(1.0, |p| p.value);
+            if p >= LEAST_ADDED * most {
+                warnings.extend(structure_warnings(structure));
+                warnings.extend(model.warnings(structure, &measures));
+            }
+            most = p.max(most);
         }
         warnings.sort();
         warnings.dedup();

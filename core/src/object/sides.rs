@@ -23,6 +23,8 @@ pub struct Side {
 const SD_OF_LOSS: f64 = 0.4;
 /// Least coefficient of restitution at the ends of its uncertainty.
 const LEAST_ETA: f64 = 0.01;
+/// Least slenderness there, rad.
+const LEAST_ALPHA: f64 = 0.01;
 /// Largest share of the half width, or of the height, that a centre of mass is away from the middle or the
 /// base.
 const FARTHEST: f64 = 0.98;
@@ -77,7 +79,7 @@ impl Object {
             }
             (None, None, Some(width), Some(height), None) => {
                 self.check_dimensions(width, height)?;
-                self.sides_of_body(width, height)
+                self.sides_of_body(height)
             }
             (None, None, Some(_), Some(_), Some(_)) => Err(ObjectError::Implausible(
                 "beam-mass-ratio: expected width and height of a column alone".to_string(),
@@ -86,7 +88,7 @@ impl Object {
         }
     }
 
-    fn check_dimensions(&self, width: f64, height: f64) -> Result<(), ObjectError> {
+    pub(super) fn check_dimensions(&self, width: f64, height: f64) -> Result<(), ObjectError> {
         let (shape, place) = (&self.shape, &self.place);
         let side = shape.depth.map_or(width, |depth| depth.min(width));
         let (offset, inertia) =
@@ -135,13 +137,22 @@ impl Object {
         };
         let structures = etas
             .map(|etas| etas.map(|eta| Structure { eta: eta.clamp(LEAST_ETA, 1.0), ..structure.clone() }));
-        Side { structure, at_quantiles: structures.into_iter().collect() }
+        // A restitution that is computed follows alpha.
+        let tilts = self.place.alpha_sd.map(|sd| LowHigh::normal(UncertaintySource::Object, sd)).map(|off| {
+            off.map(|off| {
+                let alpha_rad = (structure.alpha_rad + off).clamp(LEAST_ALPHA, FRAC_PI_4);
+                let ratio = housner_eta(alpha_rad) / housner_eta(structure.alpha_rad);
+                let eta = structure.eta * if is_computed { ratio } else { 1.0 };
+                Structure { alpha_rad, eta: eta.clamp(LEAST_ETA, 1.0), ..structure.clone() }
+            })
+        });
+        Side { structure, at_quantiles: structures.into_iter().chain(tilts).collect() }
     }
 
     /// Both directions of a body, or that of its width.
-    fn sides_of_body(&self, width: f64, height: f64) -> Result<Vec<Side>, ObjectError> {
-        let mut sides = vec![self.side_of_body(width, height, self.shape.centre_offset.unwrap_or(0.0))];
-        sides.extend(self.shape.depth.map(|depth| self.side_of_body(depth, height, 0.0)));
+    fn sides_of_body(&self, height: f64) -> Result<Vec<Side>, ObjectError> {
+        let bodies = self.shape.bodies().into_iter();
+        let mut sides: Vec<_> = bodies.map(|body| self.side_of_body(body, height)).collect();
         if sides.iter().any(Result::is_ok) {
             // A squat direction slides, and so is no danger beside one that rocks.
             sides.retain(Result::is_ok);
@@ -149,20 +160,14 @@ impl Object {
         sides.into_iter().collect()
     }
 
-    /// The inertia about the other axis differs by that of a solid block.
-    fn side_of_body(&self, side: f64, height: f64, offset: f64) -> Result<Side, ObjectError> {
+    fn side_of_body(&self, body: Body, height: f64) -> Result<Side, ObjectError> {
         let Place { centre_height_sd, centre_offset_sd, .. } = self.place;
-        let solid = Body::solid(side, height);
-        let across = Body::solid(self.shape.width.unwrap_or(side), height).inertia_m2;
-        let inertia_m2 =
-            self.shape.inertia.map_or(solid.inertia_m2, |inertia| inertia + solid.inertia_m2 - across);
-        let centre = self.shape.centre_height.unwrap_or(0.5 * height);
-        let offset = folded_quantiles(offset, centre_offset_sd.unwrap_or(0.0));
+        let centre = body.centre_height_m;
+        let offset = folded_quantiles(body.centre_offset_m, centre_offset_sd.unwrap_or(0.0));
         let at = |centre_height_m: f64, centre_offset_m: f64| Body {
-            width_m: side,
             centre_height_m: centre_height_m.clamp((1.0 - FARTHEST) * height, FARTHEST * height),
-            centre_offset_m: centre_offset_m.min(FARTHEST * 0.5 * side),
-            inertia_m2,
+            centre_offset_m: centre_offset_m.min(FARTHEST * 0.5 * body.width_m),
+            ..body
         };
         let mut found = self.side_like(self.structure_of_body(at(centre, offset.value), height)?);
         let alpha_rad = found.structure.alpha_rad;
@@ -190,6 +195,27 @@ impl Object {
             true => Structure::rectangular_block(&self.name, body.width_m, height, eta),
             false => body.structure(&self.name, eta),
         }
+    }
+}
+
+impl Shape {
+    /// In the plane of the width and, with a depth, of that; none without width and height. The inertia about
+    /// the other axis differs by that of a solid block unless it is known.
+    pub(super) fn bodies(&self) -> Vec<Body> {
+        let Some((width, height)) = self.width.zip(self.height) else { return Vec::new() };
+        let solid = |side| Body::solid_inertia_m2(side, height);
+        let body = |width_m, centre_offset_m, inertia: Option<f64>| Body {
+            width_m,
+            centre_height_m: self.centre_height.unwrap_or(0.5 * height),
+            centre_offset_m,
+            inertia_m2: inertia.unwrap_or_else(|| solid(width_m)),
+        };
+        let by_width = body(width, self.centre_offset.unwrap_or(0.0), self.inertia);
+        let by_depth = self.depth.map(|depth| {
+            let across = self.inertia.map(|inertia| inertia + solid(depth) - solid(width));
+            body(depth, 0.0, self.inertia_across.or(across))
+        });
+        [by_width].into_iter().chain(by_depth).collect()
     }
 }
 

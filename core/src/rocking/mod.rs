@@ -1,21 +1,4 @@
-//! The response of a free-standing rocking block or frame to a ground motion (section 2.2).
-//!
-//! ```text
-//! structure    p, alpha and eta, and their formulas for blocks and frames
-//! body         those of any rigid body on two edges, of its weaker side
-//! record       ground acceleration, piecewise linear in time
-//! reference    equation of motion, uplift, impact (Eqs. 4 to 6) as printed, in small steps: read this first
-//! taylor       the equation of motion (Eq. 4): rotation over one step as a Taylor polynomial
-//! uplift       when a structure at rest leaves its base (Eq. 5)
-//! vector       SIMD numbers, one structure to a lane
-//! lanes        state of the structures in the lanes: rest, uplift, rocking
-//! step         one step of all lanes: impact (Eq. 6), peak, overturning
-//! roots        roots of the step's polynomials, all lanes at once
-//! polynomial   roots of one lane's polynomial, by Bernstein coefficients
-//! response     outcome, demand (Eq. 7), and free rocking after the record in closed form
-//! batch        many structures and records; a lane that is done takes the next
-//! incremental  one motion at rising intensity: where a structure overturns, and where it is safe again
-//! ```
+//! The response of a free-standing rocking block or frame to a ground motion (section 2.2): see `reference`.
 
 mod batch;
 mod body;

@@ -7,13 +7,6 @@ use crate::plausibility::FREQUENCIES_RAD_S;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
-///
-/// ```
-/// use rockfrag_core::rocking::Structure;
-/// let cabinet = Structure::rectangular_block("cabinet", 0.5, 1.9, None)?;
-/// assert!((cabinet.p_rad_s - 2.74).abs() < 0.01 && (cabinet.alpha_rad - 0.257).abs() < 0.001);
-/// # Ok::<(), rockfrag_core::rocking::StructureError>(())
-/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Structure {
     pub name: String,

@@ -45,13 +45,6 @@ pub struct Distance {
 }
 
 /// Compares all that the paper publishes with our seeds, and with fits of the paper's structures.
-///
-/// ```
-/// use rockfrag_core::studies::comparison::{Comparison, compare};
-/// // Without fits, what is published stands beside our seeds.
-/// let compared: Vec<Comparison> = compare(&[], &[]);
-/// assert!(compared.iter().any(|row| row.quantity == "below_b1" && row.ours.is_none() && row.test.p > 0.3));
-/// ```
 pub fn compare(demand: &[DemandFit], curves: &[CurveFit]) -> Vec<Comparison> {
     let (numbers, seeds) = (published(), seed_values());
     let compared = numbers.iter().map(|number| {

@@ -165,26 +165,33 @@ fn a_list_falls_as_its_objects_do_apart_or_together() {
         Site::new(Hazard::Joint((1..13).map(|k| pair(k.into(), 0.1 * f64::from(k), 1e-3)).collect())),
     ] {
         let rates = objects.each_ref().map(|object| site.rates(object));
-        let listed = |number: usize, count: f64| {
+        let listed = |number: usize, count: f64, years: f64| {
             let SiteRates { states, budget, .. } = &rates[number];
-            ListedObject { object: &objects[number], count, overturning: states.overturning, budget }
+            let overturning = states.overturning;
+            ListedObject { object: &objects[number], count, years, overturning, budget }
         };
         let rate = |number: usize| rates[number].states.overturning.estimate().unwrap();
         // One object alone is what it is by itself.
-        let ListProbabilities { at_least_one, expected_number } = site.list(&[listed(0, 1.0)], 50.0);
+        let ListProbabilities { at_least_one, expected_number } = site.list(&[listed(0, 1.0, 50.0)]);
         for found in [at_least_one, expected_number].map(|found| found.estimate().unwrap()) {
             let p = rate(0).map(|rate| probability_in_years(rate, 50.0));
             for (found, expected) in [(found.value, p.value), (found.low, p.low), (found.high, p.high)] {
                 assert!((found / expected).ln().abs() < 0.02, "{found} for {expected}");
             }
         }
-        let all = [listed(0, 1.0), listed(1, 2.0), listed(2, 1.0)];
-        let ListProbabilities { at_least_one, expected_number } = site.list(&all, 1e-6);
+        let all = [listed(0, 1.0, 1e-6), listed(1, 2.0, 1e-6), listed(2, 1.0, 1e-6)];
+        let ListProbabilities { at_least_one, expected_number } = site.list(&all);
         let [one, number] = [at_least_one, expected_number].map(|found| found.estimate().unwrap());
         let sum = rate(0).value + 2.0 * rate(1).value + rate(2).value;
         assert!((number.value / (1e-6 * sum) - 1.0).abs() < 1e-4);
         assert!(1e-6 * rate(0).value < one.value && one.value < number.value);
         assert!(number.low < number.value && one.low < one.value && one.value < one.high);
+        // Each over its own years: those that are there fall together.
+        let falls = |list: &[ListedObject]| -(-site.list(list).at_least_one.value.unwrap()).ln_1p();
+        let each = |years: [f64; 3]| [0, 1, 2].map(|number| listed(number, 1.0, years[number]));
+        let (all, year) = (each([30.0, 100.0, 10.0]), each([1.0; 3]));
+        let expected = 10.0 * falls(&year) + 20.0 * falls(&year[..2]) + 70.0 * falls(&year[1..2]);
+        assert!((falls(&all) / expected - 1.0).abs() < 1e-9);
     }
 }
 

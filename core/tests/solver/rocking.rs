@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use proptest::prelude::*;
 use rockfrag_core::motion::Pulse;
 use rockfrag_core::motion::measures::peak;
+use rockfrag_core::object::{Object, Place, Shape, Side};
 use rockfrag_core::rocking::{
     Body, Outcome, Record, RecordError, SolverEvent, Structure, StructureError, TracePoint, trace,
 };
@@ -130,22 +131,68 @@ fn bodies_have_their_closed_forms() {
     };
     let about_edge = 1.25 * r * r + h * h / 3.0;
     expect(cylinder, [9.81 * r.hypot(h / 2.0) / about_edge, 1.0 / 3.0, 1.0 - 2.0 * r * r / about_edge]);
-    // 0.6 m wide, 60 kg in the lower 0.4 m and 30 kg in the 1.4 m above: the centre at 0.5 m, I 24.6 kg m2.
-    let cabinet = Body { width_m: 0.6, centre_height_m: 0.5, centre_offset_m: 0.0, inertia_m2: 24.6 / 90.0 };
-    expect(
-        cabinet,
-        [9.81 * 0.34_f64.sqrt() / (24.6 / 90.0 + 0.34), 0.6, (24.6 / 90.0 + 0.16) / (24.6 / 90.0 + 0.34)],
-    );
-    // An L of two bars of 1.0 x 0.2 m, one upright at an end of the other: the centre 0.4 m high, 0.3 m from
-    // that end.
-    let inertia_m2 = 1.04 / 12.0 + 0.13;
-    let l = Body { width_m: 1.0, centre_height_m: 0.4, centre_offset_m: -0.2, inertia_m2 };
-    let (weak, strong) = (inertia_m2 + 0.25, inertia_m2 + 0.65);
-    expect(l, [9.81 * 0.5 / weak, 0.75, (inertia_m2 + 0.16 - 0.21) / (weak * strong).sqrt()]);
     // A solid 0.6 x 1.8 m on contacts 0.1 m and 0.3 m from its centre line.
     let inertia_m2 = Body::solid_inertia_m2(0.6, 1.8);
     let off = Body { width_m: 0.4, centre_height_m: 0.9, centre_offset_m: 0.1, inertia_m2 };
     expect(off, [2.8163003_f64.powi(2), 0.1 / 0.9, (0.9642857_f64 * 0.9).sqrt()]);
+}
+
+/// Over the volume of boxes, each by its mass (kg), middle and width, bottom and height (m): by Gauss's rule
+/// of three points, which is exact.
+fn integral(boxes: &[[f64; 5]; 2], of: impl Fn(f64, f64) -> f64) -> f64 {
+    let nodes = [(-0.15_f64.sqrt(), 5.0 / 18.0), (0.0, 8.0 / 18.0), (0.15_f64.sqrt(), 5.0 / 18.0)];
+    let of_box = |[mass, x, width, z, height]: &[f64; 5]| {
+        let at = |(u, by_u): (f64, f64)| {
+            nodes.map(|(v, by_v)| mass * by_u * by_v * of(x + u * width, z + (0.5 + v) * height))
+        };
+        nodes.map(at).iter().flatten().sum::<f64>()
+    };
+    boxes.iter().map(of_box).sum()
+}
+
+#[test]
+fn an_object_and_its_pedestal_rock_as_their_volumes_do() {
+    // Width, depth, height and mass of both; how far the object stands aside.
+    for (upper, lower, aside) in [
+        ([0.35, 0.35, 0.57, 80.0], [0.4, 0.4, 1.15, 300.0], 0.0),
+        ([0.2, 0.3, 0.62, 8.0], [0.45, 0.35, 0.95, 150.0], 0.0),
+        ([0.9, 0.5, 1.6, 620.0], [0.6, 0.55, 0.4, 90.0], 0.02),
+        ([0.15, 0.12, 1.2, 30.0], [0.5, 0.4, 0.3, 5.0], -0.05),
+        ([0.3, 0.2, 0.5, 1.0], [0.3, 0.2, 0.5, 1.0], 0.0),
+    ] {
+        let [width, depth, height, mass] = upper.map(Some);
+        let [pedestal_width, pedestal_depth, pedestal_height, pedestal_mass] = lower.map(Some);
+        let on = |fixed: bool| {
+            let shape = Shape { width, depth, height, centre_offset: Some(aside), ..Shape::default() };
+            let sizes =
+                Place { pedestal_width, pedestal_depth, pedestal_height, pedestal_mass, ..Place::default() };
+            let place = Place { mass, fixed_to_pedestal: Some(fixed), ..sizes };
+            Object { shape, place, ..Object::default() }
+        };
+        let directions = [(0, aside), (1, 0.0)].map(|(side, aside): (usize, f64)| {
+            let bottom = [lower[3], 0.0, lower[side], 0.0, lower[2]];
+            let boxes = [[upper[3], aside.abs(), upper[side], lower[2], upper[2]], bottom];
+            let whole = integral(&boxes, |_, _| 1.0);
+            let [x, z] = [integral(&boxes, |x, _| x) / whole, integral(&boxes, |_, z| z) / whole];
+            let (near, far) = (0.5 * lower[side], -0.5 * lower[side]);
+            let about = |a: f64, b: f64| integral(&boxes, |x, z| (x - a) * (x - b) + z * z);
+            let eta = about(near, far) / (about(near, near) * about(far, far)).sqrt();
+            let p2 = whole * G_M_S2 * (near - x).hypot(z) / about(near, near);
+            [p2.sqrt(), ((near - x) / z).atan(), eta]
+        });
+        let mut expected = directions.to_vec();
+        expected.sort_by(|a, b| a[1].total_cmp(&b[1]));
+        let found = on(true).on_pedestal().sides().unwrap();
+        for (Side { structure, .. }, expected) in found.iter().zip(expected) {
+            let found = [structure.p_rad_s, structure.alpha_rad, structure.eta];
+            found.into_iter().zip(expected).for_each(|(found, expected)| close(found, expected, 1e-9));
+        }
+        // Loose, it is itself, where it uplifts first.
+        let loose = on(false).on_pedestal();
+        let alone = [upper[0] - 2.0 * aside.abs(), upper[1]].map(|side| (side / upper[2]).atan());
+        let uplifts_first = directions.iter().zip(alone).all(|(whole, alone)| whole[1] >= alone);
+        assert_eq!(loose.refused.is_none().then(|| loose.sides()), uplifts_first.then(|| on(false).sides()));
+    }
 }
 
 #[test]

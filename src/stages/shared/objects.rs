@@ -4,6 +4,7 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use anyhow::ensure;
+use clap::builder::BoolishValueParser;
 use clap::{Arg, Args, Command, ValueHint, value_parser};
 use rockfrag_core::object::{
     Base, Entry, Field, Object, Place, Restitution, Shape, Wall, structure_warnings,
@@ -26,8 +27,9 @@ pub fn with_fields(stage: Command) -> Command {
     let has = |option: &str| stage.get_arguments().any(|arg| arg.get_id() == option);
     // Only what has limits takes standard deviations.
     let (shape, place, has_limits) = (has("structures"), has("over"), has("years"));
-    let of_shape = Field::OF_SHAPE.into_iter().filter(|_| shape).map(|word| (word, "Structure"));
-    let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !Field::OF_SHAPE.contains(word));
+    let is_of_shape = |word: &&str| *word == "eta" || Field::SIZES.contains(word);
+    let of_shape = Field::SIZES.into_iter().chain(["eta"]).filter(|_| shape).map(|word| (word, "Structure"));
+    let others = Field::VARIANTS.iter().map(<&str>::from).filter(|word| !is_of_shape(word));
     let of_place =
         others.filter(|word| place && (has_limits || !word.ends_with("-sd"))).map(|word| (word, "Object"));
     stage.args(of_shape.chain(of_place).filter_map(|(word, heading)| {
@@ -37,6 +39,7 @@ pub fn with_fields(stage: Command) -> Command {
         Some(match of {
             Field::Eta => arg.value_parser(value_parser!(Restitution)),
             Field::Base => arg.value_parser(value_parser!(Base)),
+            Field::FixedToPedestal => arg.value_parser(BoolishValueParser::new()),
             Field::Wall => arg.num_args(0..=1).default_missing_value("yes").value_parser(value_parser!(Wall)),
             _ => arg.value_parser(move |text: &str| of.parse_value(text)),
         })
@@ -67,7 +70,7 @@ pub struct StructureArgs {
 
 impl StructureArgs {
     pub const RULES: [Rule; 6] = [
-        Rule::Either(&Field::OF_SHAPE, &["structure", "structures"]),
+        Rule::Either(&Field::SIZES, &["structure", "structures"]),
         Rule::Either(&["structure"], &["structures"]),
         Rule::Either(
             &["width", "height", "depth", "centre-height", "centre-offset", "inertia"],
@@ -135,7 +138,9 @@ impl StructureArgs {
             let paper = paper::structures().into_iter();
             all.extend(paper.map(|known| Object::with_parameters(&known, Restitution::Number(known.eta))));
         }
-        if self.one != Shape::default() {
+        let is_open = |object: &&mut Object| object.shape.eta.is_none() && object.place.base.is_none();
+        all.iter_mut().filter(is_open).for_each(|object| object.shape.eta = self.one.eta);
+        if all.is_empty() && self.one != Shape::default() {
             all.push(Object { name: UNNAMED.to_string(), shape: self.one, ..Object::default() });
         }
         let expected = "--width and --height of a block, or --p, --alpha and --eta, or --structures FILE";
@@ -145,7 +150,7 @@ impl StructureArgs {
             let problem = format!("two structures are called '{name}'; expected distinct names");
             return Err(UsageError::because(problem));
         }
-        Ok(all.into_iter().map(|object| object.at(place)).collect())
+        Ok(all.into_iter().map(|object| object.at(place).on_pedestal()).collect())
     }
 }
 
