@@ -75,7 +75,9 @@ impl Warning {
             NotFitted => "not among the fitted structures: the universal surface is used",
             OtherStructure => "calibrated on responses of a different structure (--name)",
             Extrapolated => "outside the range of motions that the model was fitted to",
-            UnusualStructure => "the surface was fitted to p 0.4 to 8 rad/s, alpha to 0.50, eta from 0.70",
+            UnusualStructure => {
+                "less certain: the surface was fitted to p 0.4 to 8 rad/s, alpha to 0.50, eta from 0.70"
+            }
             PoorFit => "the paper's curve or planes differ from the observed shares by more than 0.15",
             NoEvents => "all or no responses overturned: the estimate rests on other structures",
             FewEvents => "fewer than ten events or ten non-events: the fitted rate is uncertain",

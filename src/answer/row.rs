@@ -315,6 +315,8 @@ impl UncertaintyColumns {
         let of_motion = [self.error_fit, self.error_magnitude, self.error_velocity];
         let of_object = [self.error_eta, self.error_wall, self.error_object, self.error_floor];
         let sds = of_motion.into_iter().chain(of_object).chain([self.error_hazard]);
+        // What moves a rate by less than a percent is not told.
+        let sds = sds.map(|sd| sd.filter(|sd| *sd > 0.005));
         let known = UncertaintySource::VARIANTS.iter().zip(sds).map(|(source, sd)| Some((*source, sd?)));
         known.flatten().collect()
     }

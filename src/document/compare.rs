@@ -8,7 +8,7 @@ use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::Document;
-use super::list::{expected_of_list, pieces};
+use super::list::{not_assessed, pieces};
 use crate::answer::{Alternative, Answer, AnswerTable, Before};
 use crate::number::{self, count, counted, listed, significant};
 
@@ -48,7 +48,12 @@ fn alternatives(tables: &[AnswerTable]) -> Document {
     let joined = AnswerTable { details: Vec::new(), ..AnswerTable::joined(tables) };
     let (now, files) = (Document::of_answers(&all), Document::of_answers(&joined));
     let title = format!("{}, {} alternatives", now.title, tables.len());
-    Document { title, lead: files.lead, tiles: files.tiles, notes: files.notes, overview: Vec::new(), ..now }
+    let of_each = tables
+        .iter()
+        .map(|table| format!("{}: {}", table.file(), Document::of_answers(table).facts.join(" ")));
+    let lead = files.lead.into_iter().take(1).chain(not_assessed(&all.rows)).collect();
+    let Document { tiles, notes, .. } = files;
+    Document { title, lead, tiles, notes, facts: of_each.collect(), overview: Vec::new(), ..now }
 }
 
 /// The list after, each object with what it was before; none where no object with an answer is in both.
@@ -65,10 +70,10 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     let gone = before.rows.iter().enumerate().filter(|(at, _)| !partners.contains(&Some(*at)));
     let new = after.rows.iter().zip(&partners).filter(|(_, one)| one.is_none());
     let [gone, new] = [gone.map(|(_, one)| one).collect::<Vec<_>>(), new.map(|(one, _)| one).collect()];
-    let unmatched = [("before", gone), ("after", new)].into_iter().filter(|(_, only)| !only.is_empty());
-    let unmatched = unmatched.map(|(when, only)| {
+    let unmatched = [("Removed", gone), ("Added", new)].into_iter().filter(|(_, only)| !only.is_empty());
+    let unmatched = unmatched.map(|(what, only)| {
         let names: Vec<String> = only.iter().map(|one| one.object.called()).collect();
-        format!("Only {when}: {}.", listed(&names, NAMED))
+        format!("{what}: {}.", listed(&names, NAMED))
     });
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let shared = if is_same { "" } else { ", but for PGV/PGA, as the hazards differ" };
@@ -78,9 +83,8 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     );
     let mut now = Document::of_answers(&table);
     now.lead.insert(0, format!("{changed} of {} changed.", counted(both, "object")));
-    let expected = expected_of_list(&before.rows.iter().collect::<Vec<_>>());
-    for tile in now.tiles.iter_mut().take(1) {
-        tile.number = format!("{expected} → {}", tile.number);
+    for (tile, before) in now.tiles.iter_mut().zip(Document::of_answers(before).tiles) {
+        tile.number = format!("{} → {}", before.number, tile.number);
     }
     (both > 0).then(|| Document {
         title: format!("{}, before and after", now.title),
@@ -173,6 +177,7 @@ fn changes(both: [&Answer; 2]) -> Vec<String> {
     };
     let mut changes: Vec<String> = SIDES.iter().filter_map(arrow).collect();
     let silent = both.into_iter().find(|answer| !answer.is_answered());
+    let silent = silent.filter(|_| both[0].is_answered() != both[1].is_answered());
     changes.extend(silent.map(Answer::reason));
     if changes.is_empty() {
         changes.extend(PARAMETERS.iter().find_map(arrow));

@@ -9,8 +9,9 @@ use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
-/// Columns that need small letters.
+/// Columns that need small letters, and smaller ones.
 const MANY: usize = 9;
+const MOST: usize = 12;
 
 impl Document {
     /// # Errors
@@ -49,7 +50,7 @@ impl Document {
                         }
                     }
                     main {
-                        (paragraphs(&self.gaps))
+                        @for gaps in &self.gaps { p class="caption" { (write(gaps)) } }
                         div class=(if is_beside { "first" } else { "" }) {
                             div { @for table in &self.overview { (write_table(table)) } }
                             @if let Some(first) = first { (figure(first)) }
@@ -87,7 +88,9 @@ fn write_section(section: &Document) -> Markup {
             summary { (write(&section.title)) }
             (paragraphs(&section.facts))
             @for table in &section.tables { (write_table(table)) }
-            @for figure in &section.figures { (write_figure(figure, &figure.title)) }
+            @for figure in &section.figures {
+                (write_figure(figure, if figure.title == section.title { "" } else { &figure.title }))
+            }
         }
     }
 }
@@ -117,11 +120,13 @@ fn write_table(table: &Table) -> Markup {
         (_, true) => Some("short"),
         _ => None,
     };
+    let sizes = [(MOST, "many most"), (MANY, "many")];
+    let size = sizes.into_iter().find(|(most, _)| columns.len() > *most).map(|(_, class)| class);
     // What is wider than a small screen is scrolled, by keys too.
     html! {
         p class="caption" { (write(&table.caption)) }
         div class="scroll" tabindex="0" role="group" aria-label=(words(&table.caption)) {
-            table class=[(columns.len() > MANY).then_some("many")] {
+            table class=[size] {
                 thead {
                     tr {
                         @for column in &columns { th scope="col" class=[class(column)] { (write(column.head)) } }

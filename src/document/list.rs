@@ -23,9 +23,12 @@ pub fn document(table: &AnswerTable) -> Document {
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
     let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
     let all = pieces(&table.rows);
-    let title = format!("{}: {what}", counted(all, "object"));
-    let news: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_news()).collect();
-    let (rows, same) = table_of(&news, &when);
+    let several = table.rows.iter().any(|answer| answer.file != worst.file);
+    let of_what = if several { "Objects of several files".to_string() } else { counted(all, "object") };
+    let title = format!("{of_what}: {what} {when}");
+    // What is changed comes first.
+    let (news, others): (Vec<&Answer>, Vec<&Answer>) = table.rows.iter().partition(|answer| answer.is_news());
+    let (rows, same) = table_of(&[&news[..], &others].concat(), &when);
     if answered.is_empty() {
         let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![rows], ..Document::default() };
@@ -37,24 +40,32 @@ pub fn document(table: &AnswerTable) -> Document {
     } else {
         String::new()
     };
+    let place = format!("{free} of {}{kinds} assessed ({upstairs} above the ground)", count(all));
     let whose = format!(" of {}", worst.object.called());
-    let lead = [Some(worst_of(table)), worst.about_target(&whose), not_assessed(&table.rows)];
+    let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
+    let lead = [Some(worst_of(table)), target, not_assessed(&table.rows)];
     let sections = table.details.iter().filter_map(|detail| section(table, detail));
     let of_place = by_place(&answered, "floor", |answer| answer.object.short_place());
     let of_section =
         by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
+    // Sections may be the floors.
+    let numbers = |table: &Option<Table>| {
+        let rows = table.iter().flat_map(|table| &table.rows);
+        rows.map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>()
+    };
+    let is_other = worst.before.is_none() && numbers(&of_section) != numbers(&of_place);
+    let of_section = of_section.filter(|_| is_other);
     Document {
         title,
-        place: format!(
-            "{free} of {} free-standing{kinds} ({upstairs} on floors){}",
-            count(all),
-            table.conditions()
-        ),
+        place: if several { String::new() } else { place } + &table.conditions(),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: [remedies(table, &when), of_place, of_section].into_iter().flatten().collect(),
+        overview: match several {
+            true => Vec::new(),
+            false => [remedies(table, &when), of_place, of_section].into_iter().flatten().collect(),
+        },
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
@@ -75,20 +86,22 @@ pub fn pieces<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> usize {
 fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
     let as_it_is = detail.variants.first()?;
     let mut document = object::document(table, as_it_is, detail);
-    document.facts = [document.lead.split_off(0), document.notes.split_off(0)].concat();
+    let tiles = document.tiles.iter().skip(2).map(|tile| format!("{}: {}.", tile.number, tile.words));
+    document.facts = document.lead.drain(..).chain(tiles).chain(document.notes.drain(..)).collect();
     Some(document)
 }
 
 /// How many objects of each place are above the target, and are to be expected to overturn; none of a single
 /// place.
 fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
-    let groups = by(answers.iter().copied(), place);
+    let mut groups = by(answers.iter().copied(), place);
+    groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
     let target = answers[0].rates.target;
     let row = |group: &Vec<&Answer>| {
         let above =
             group.iter().copied().filter(|answer| target.is_some_and(|most| answer.severity() > most));
         let above = target.map_or(String::new(), |_| count(pieces(above)));
-        vec![place(group[0]), count(pieces(group.iter().copied())), above, expected_number(group)]
+        vec![place(group[0]), count(pieces(group.iter().copied())), above, TWO_DIGITS.one(number_of(group))]
     };
     let above = target.map_or(String::new(), |target| format!("above {}", PERCENT.one(target)));
     let heads = [head, "objects", &above, "expected to overturn"];
@@ -116,8 +129,8 @@ fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
     };
     let rows: Vec<Vec<String>> = worst.iter().map(row).collect();
     let caption = format!(
-        "What would change the worst: anchored (forces by ASCE 7 chapter 13 or EN 1998-1 4.3.5) none rocks; \
-         else the probability of overturning {when}, %, with one thing changed"
+        "The worst, if one thing is changed: probability of overturning {when}, %. Anchored, none rocks (forces \
+         by ASCE 7 chapter 13 or EN 1998-1 4.3.5)"
     );
     (!rows.is_empty()).then_some(Table { caption, heads, rows, ..Table::default() })
 }
@@ -129,7 +142,10 @@ fn worst_of(table: &AnswerTable) -> String {
     let how_often = worst.how_often();
     match how_often.strip_prefix("overturns ") {
         _ if table.rows.len() == 1 => format!("{name} {how_often}."),
-        Some(often) => format!("{name} is the most likely to overturn: {often}."),
+        Some(often) if table.rows.iter().all(Answer::is_answered) => {
+            format!("{name} is the most likely to overturn: {often}.")
+        }
+        Some(often) => format!("{name} is the most likely to overturn of those assessed: {often}."),
         None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None => "Nothing overturns.".to_string(),
     }
@@ -142,7 +158,7 @@ fn file_of(answer: &Answer, table: &AnswerTable) -> String {
 }
 
 /// The objects without an answer; the table says why.
-fn not_assessed(answers: &[Answer]) -> Option<String> {
+pub fn not_assessed(answers: &[Answer]) -> Option<String> {
     let silent: Vec<&Answer> = answers.iter().filter(|answer| !answer.is_answered()).collect();
     let names: Vec<String> = silent.iter().map(|answer| answer.object.called()).collect();
     let [some, all] = [pieces(silent), pieces(answers)].map(count);
@@ -162,11 +178,15 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
-        let words = format!("probability that at least one overturns{}", PERCENT.limits(any, "95 % limits "));
+        let limits = PERCENT.limits(any, "95 % limits ");
+        let words =
+            format!("probability that at least one overturns{limits}; one earthquake may overturn many");
         tiles.extend(any.value.or(any.high).map(|_| Tile::new(PERCENT.value(any), words)));
         tiles.extend(table.rows[0].rates.target.map(|target| {
             let above = pieces(table.rows.iter().filter(|answer| answer.severity() > target));
-            Tile::new(count(above), format!("objects above the target of {}", PERCENT.one(target)))
+            let all = pieces(table.rows.iter().filter(|answer| answer.is_answered()));
+            let words = format!("of {} above the target of {}", counted(all, "object"), PERCENT.one(target));
+            Tile::new(count(above), words)
         }));
     }
     tiles
@@ -175,12 +195,12 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
 /// How many of the objects of a list are to be expected to overturn.
 pub fn expected_of_list(rows: &[&Answer]) -> String {
     let of_list = rows.first().and_then(|answer| answer.list.expected_number.value);
-    of_list.map_or_else(|| expected_number(rows), |number| TWO_DIGITS.one(number))
+    TWO_DIGITS.one(of_list.unwrap_or_else(|| number_of(rows)))
 }
 
-fn expected_number(some: &[&Answer]) -> String {
+fn number_of(some: &[&Answer]) -> f64 {
     let number = |answer: &&Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
-    TWO_DIGITS.one(some.iter().filter_map(number).sum())
+    some.iter().filter_map(number).sum()
 }
 
 /// What stands in a cell of an answer.
@@ -188,10 +208,10 @@ type Cell = fn(&Answer) -> String;
 
 /// The columns behind the list's own; of those in the time of exposure there is an @.
 const COLUMNS: [(&str, Cell); 20] = [
-    ("size", |answer| answer.object.size().replace(' ', "\u{a0}")),
+    ("size", |answer| answer.object.size()),
     ("centre of mass, m", |answer| answer.object.raised_centre_m().map_or(String::new(), length)),
     ("number", |answer| answer.object.count.map_or(String::new(), plain)),
-    ("place", |answer| answer.object.short_place()),
+    ("place", place),
     ("file", |answer| literal(&answer.file)),
     ("change", |answer| of_before(answer, |before| before.changes.join("; "))),
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
@@ -206,22 +226,15 @@ const COLUMNS: [(&str, Cell); 20] = [
     ("over PGA half at", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 0))),
     ("over PGA, limits", |answer| answer.over_pga.as_deref().map_or(String::new(), |of| of_fragility(of, 1))),
     ("years", |answer| answer.rates.years.map_or(String::new(), plain)),
-    ("anchors, or a base of", base),
+    (BASE, base),
     ("not assessed", |answer| if answer.is_answered() { String::new() } else { answer.reason() }),
 ];
 const OVERTURNS: &str = "overturns @, %";
+const BASE: &str = "base that meets the target";
 const LIMITS: &str = "95 % limits";
 /// Columns that are there although all objects have the same; others are then said once, but for these.
-const ALWAYS: [&str; 8] = [
-    "change",
-    "before, %",
-    OVERTURNS,
-    LIMITS,
-    "times as often",
-    "times, 95 % limits",
-    "anchors, or a base of",
-    "not assessed",
-];
+const ALWAYS: [&str; 8] =
+    ["change", "before, %", OVERTURNS, LIMITS, "times as often", "times, 95 % limits", BASE, "not assessed"];
 const UNSAID: [&str; 3] = ["place", "file", "years"];
 
 /// The answers, and what is the same for all objects.
@@ -262,6 +275,11 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let rows = (0..answers.len()).map(cells).collect();
     let heads = columns.iter().map(|(head, _)| head.clone()).collect();
     (Table { heads, rows, labels, ..Table::default() }, same)
+}
+
+/// Where an object stands; nothing of one that is not assessed.
+pub fn place(answer: &Answer) -> String {
+    if answer.is_answered() { answer.object.short_place() } else { String::new() }
 }
 
 /// A cell of the probabilities of an object that has them.

@@ -144,7 +144,7 @@ impl Table {
 const SHORT: usize = 9;
 
 fn is_number(cell: &str) -> bool {
-    cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains('→')
+    cell.starts_with(|sign: char| "0123456789-\u{2212}<>".contains(sign)) && !cell.contains(['→', '×'])
 }
 
 impl Document {

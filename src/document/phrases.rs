@@ -192,18 +192,11 @@ impl Answer {
             let anchored = "Anchored, it would not rock.";
             return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
         };
-        let has_other_sides = self.object.depth_m != self.object.width_m;
-        let is_over_depth = has_other_sides && self.rates.bases.target_width_m.value.is_none();
-        let depth = self.object.depth_m.filter(|_| is_over_depth);
-        let depth = depth.map_or(String::new(), |depth| {
-            let depth = number::length(depth);
-            format!("No width{whose} reaches {target}: it then falls over its depth ({depth} m). ")
-        });
         let by_limit = match self.base(|side| side.high) {
             Some(base) => format!("{base} by the upper limit"),
             None => format!("none by the upper limit: {why_none}"),
         };
-        Some(format!("{depth}Base{whose} for {target}: {base}; {by_limit}."))
+        Some(format!("Base{whose} for {target}: {base}; {by_limit}."))
     }
 
     fn why_no_base(&self) -> String {
@@ -228,7 +221,7 @@ impl Answer {
     }
 
     /// What of its rate lies beyond a curve that ends too early.
-    fn beyond_the_curve(&self, hazard: Option<&Hazard>) -> Option<String> {
+    fn beyond_the_curve(&self, hazard: Option<&Hazard>, whose: &str) -> Option<String> {
         let is_early = self.uncertainty.warnings().contains(&Warning::HazardEndsEarly);
         let share = PERCENT.one(self.rates.share_extrapolated.filter(|_| is_early)?);
         let end = match hazard {
@@ -240,7 +233,7 @@ impl Answer {
             _ => String::new(),
         };
         Some(format!(
-            "{share} of the rate lies beyond the end of the hazard curve{end}, continued by its last slope: \
+            "{share} of the rate{whose} lies beyond the end of the hazard curve{end}, continued by its last slope: \
              the limits range from none of these motions overturning it to all of them."
         ))
     }
@@ -271,10 +264,10 @@ impl Answer {
     }
 
     /// The largest part of the error, and what would narrow it.
-    fn largest_uncertainty(&self) -> Option<String> {
+    fn largest_uncertainty(&self, whose: &str) -> Option<String> {
         let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
         let [name, remedy, options] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
-        Some(format!("Largest uncertainty: {name}, narrowed by {remedy} ({options})."))
+        Some(format!("Largest uncertainty{whose}: {name}, narrowed by {remedy} ({options})."))
     }
 }
 
@@ -319,7 +312,8 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 /// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let worst = all[0];
-    let beyond = worst.beyond_the_curve(hazard);
+    let whose = if all.len() > 1 { format!(" of {}", worst.object.called()) } else { String::new() };
+    let beyond = worst.beyond_the_curve(hazard, &whose);
     let valid = match all {
         [one] => {
             let friction = one.object.friction_needed().map(|friction| fixed(friction, 2));
@@ -329,7 +323,7 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     };
     let mut upstairs = all.iter().map(|answer| &answer.object).filter(|object| object.is_upstairs());
     let building = upstairs.clone().next().map(|_| {
-        let percent = upstairs.any(|object| object.floor.is_none());
+        let percent = upstairs.any(|object| object.floor.is_none() && object.floor_level < Some(1.0));
         let percent = if percent { "; 60 % up is at 60 % of its height" } else { "" };
         format!("The building is taken as linear{percent}.")
     });
@@ -343,7 +337,8 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
         let [beta, error] = [beta, error].map(|value| significant(value, 2));
         format!("Overturning is lognormal with beta {beta}, within {error}.")
     });
-    let uncertain = [worst.assumed(), worst.largest_uncertainty(), limits_cover(all), lognormal, beyond];
+    let uncertain =
+        [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all), lognormal, beyond];
     let lines = uncertain.into_iter().chain([model, Some(valid.join(" "))]);
     lines.flatten().filter(|line| !line.is_empty()).collect()
 }
@@ -387,8 +382,8 @@ pub fn assumptions(all: &[&Answer]) -> Vec<String> {
         "Rigid objects that stand free and do not slide. Not counted: edges rounded below (fall a third to half \
          as often), bases round in plan (1.2 to 1.3 times), soft floors or thin bottoms (1.2 to 1.5 times), \
          vertical motion (.99 to 1.08 times).",
-        "FEMA P-58 has 1.7 to 2.1 times lower median velocities for unanchored components, by judgment; under \
-         records scaled to these, 5 to 10 % of such blocks overturn.",
+        "FEMA P-58 has more falls: its median velocities for unanchored components are 1.7 to 2.1 times lower. \
+         Under records scaled to them 5 to 10 % of such blocks overturn, not half.",
     ];
     let all = [site, building, both, eta, too_far].into_iter().flatten();
     all.chain(fixed.map(str::to_string)).collect()

@@ -3,7 +3,7 @@
 use polars_core::prelude::{Column, DataFrame};
 use rockfrag_core::statistics::Interval;
 
-use super::list::base;
+use super::list::{base, place};
 use crate::answer::Answer;
 use crate::chart::text::words;
 
@@ -22,13 +22,13 @@ const COLUMNS: [(&str, Cells); 14] = [
     ("height (m)", Cells::Numbers(|answer| answer.object.height_m)),
     ("centre of mass (m)", Cells::Numbers(|answer| answer.object.centre_height_m)),
     ("number", Cells::Counts(|answer| answer.object.count)),
-    ("place", Cells::Texts(|answer| plain(&answer.object.short_place()))),
+    ("place", Cells::Texts(|answer| plain(&place(answer)))),
     ("overturns @ (%)", Cells::Percent(|answer| overturning(answer).value)),
     ("lower 95 % limit (%)", Cells::Percent(|answer| overturning(answer).low)),
     ("upper 95 % limit (%)", Cells::Percent(|answer| overturning(answer).high)),
     ("once in (years)", Cells::Numbers(|answer| answer.rates.return_period_years.map(two_digits))),
     ("rocks too far @ (%)", Cells::Percent(|answer| answer.p.p_failure.value)),
-    ("anchors, or a base of (m)", Cells::Texts(|answer| plain(&base(answer)).replace(" m", ""))),
+    ("base that meets the target (m)", Cells::Texts(|answer| plain(&base(answer)).replace(" m", ""))),
     ("friction needed", Cells::Numbers(|answer| answer.object.friction_needed().map(two_digits))),
     (NOTES, Cells::Texts(|answer| answer.uncertainty.warnings.clone().unwrap_or_default())),
 ];

@@ -91,8 +91,10 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let others = answers.len() - rows.len();
     let others = if others > 0 { format!("; {others} further rows are in the table") } else { String::new() };
     let caption = format!("Probability of overturning {when} with 95 % limits{others}.");
-    let panel = (!rows.is_empty()).then(|| probabilities("", when, &rows, target));
-    let title = "How likely each object is to overturn";
+    let panel = (!rows.is_empty()).then(|| probabilities("", &rows, target));
+    let is_compared = drawn.iter().any(|answer| answer.before.is_some());
+    let what = if is_compared { "changed object" } else { "object" };
+    let title = &format!("How likely each {what} is to overturn");
     Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
 }
 
@@ -209,7 +211,7 @@ fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution at its \
          16 and 84 % quantiles. Anchored, it does not rock."
     );
-    probabilities("What would change it", &when, &rows, answer.rates.target).explained(caption)
+    probabilities("What would change it", &rows, answer.rates.target).explained(caption)
 }
 
 fn hazard_panel(drawn: &AtSite) -> Panel {
@@ -292,8 +294,11 @@ impl<'a> ProbabilityRow<'a> {
     }
 }
 
+/// Percents above which an axis is linear.
+const LINEAR: f64 = 10.0;
+
 /// A panel of rows, in percent, over all values and the target.
-fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
+fn probabilities(title: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
     let mut layers: Vec<Layer> = Vec::new();
     let mut ends: Vec<f64> = target.into_iter().collect();
     for (at, row) in rows.iter().enumerate() {
@@ -308,7 +313,8 @@ fn probabilities(title: &str, when: &str, rows: &[ProbabilityRow], target: Optio
         }
     }
     let Range { low, high } = Range::over(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
-    let x = Axis::log(&format!("probability of overturning {when}, %"));
+    let label = "probability of overturning, %";
+    let x = if low > LINEAR { Axis::linear(label) } else { Axis::log(label) };
     let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));
     let mut panel = Panel::new(title, x, names, Vec::new());

@@ -25,7 +25,9 @@ impl Storey {
     /// stands beside: `2-3`, `1.5`.
     pub fn parse(cell: &str) -> Option<Storey> {
         const BESIDE: &str = " .-_#():";
-        let cell = &*normal(cell);
+        // Signs of ordinals: 1° piano.
+        let cell = cell.replace(['\u{b0}', '\u{ba}', '\u{aa}'], ".");
+        let cell = &*normal(&cell);
         let names = [("ground", Storey::Ground), ("roof", Storey::Roof), ("basement", Storey::Basement)];
         if let Some((_, storey)) = names.into_iter().find(|(meaning, _)| means(cell, meaning)) {
             return Some(storey);

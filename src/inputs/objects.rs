@@ -189,7 +189,11 @@ impl List<'_> {
             };
             for row in grid.rows().filter(|row| !says(*row)) {
                 if is_open || grid.cell(row, at).contains(char::is_alphanumeric) {
-                    let about = format!("{} of {}", grid.headings[at].text, self.name_of(row));
+                    let about = format!(
+                        "{} of {}",
+                        grid.headings[at].text,
+                        self.name_of(self.column(Role::Name), row)
+                    );
                     doubts.add(Warning::NotGiven, about);
                 }
             }
@@ -198,10 +202,13 @@ impl List<'_> {
     }
 
     fn objects(&self) -> Vec<Object> {
-        let names: Vec<String> = self.grid.rows().map(|row| self.name_of(row)).collect();
+        // Where there are no names, tags are.
+        let tags = self.tags();
+        let named = self.column(Role::Name).or(tags);
+        let names: Vec<String> = self.grid.rows().map(|row| self.name_of(named, row)).collect();
         let mut uses: HashMap<&str, usize> = HashMap::new();
         names.iter().for_each(|name| *uses.entry(name).or_default() += 1);
-        let (tags, level) = (self.tags(), self.defaults.place.level);
+        let level = self.defaults.place.level;
         let names_floors = level.is_none() && self.grid.rows().any(|row| self.names_floor(row));
         let objects = names.iter().enumerate().map(|(row, name)| {
             let object = match self.object(row) {
@@ -215,9 +222,15 @@ impl List<'_> {
             let line = || format!("line {}", self.grid.lines[row]);
             let tag = tags.map_or_else(line, |at| self.grid.cell(row, at).to_string());
             let name = if uses[name.as_str()] == 1 { name.clone() } else { format!("{name} ({tag})") };
-            Object { name, refused, labels, ..object.unwrap_or_default() }
+            let known = object.unwrap_or_else(|_| Object { count: self.count(row), ..Object::default() });
+            Object { name, refused, labels, ..known }
         });
         objects.collect()
+    }
+
+    fn count(&self, row: usize) -> Option<u32> {
+        let number = self.grid.number(row, self.column(Role::Count)?).ok();
+        number.filter(|number| number.fract() == 0.0 && *number >= 0.0).map(|number| number as u32)
     }
 
     /// The first column of tags: texts of which each is another.
@@ -243,8 +256,8 @@ impl List<'_> {
         kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
     }
 
-    fn name_of(&self, row: usize) -> String {
-        match self.column(Role::Name).map_or("", |column| self.grid.cell(row, column)) {
+    fn name_of(&self, column: Option<usize>, row: usize) -> String {
+        match column.map_or("", |column| self.grid.cell(row, column)) {
             "" => format!("line {}", self.grid.lines[row]),
             name => name.to_string(),
         }

@@ -68,14 +68,20 @@ impl Reading {
 
     /// Names the columns and remarks that are not understood, if there are any.
     pub fn gaps(&self) -> Option<String> {
-        let columns = self.columns.iter().filter(|column| match column.meaning {
-            Meaning::Kept => column.filled > 0 && means(&column.heading, "remark"),
-            _ => column.meaning == Meaning::NotUnderstood,
-        });
-        let columns: Vec<String> = columns.map(|column| format!("'{}'", column.heading)).collect();
+        let names = |is_told: &dyn Fn(&ColumnReading) -> bool| -> Vec<String> {
+            self.columns
+                .iter()
+                .filter(|column| is_told(column))
+                .map(|of| format!("'{}'", of.heading))
+                .collect()
+        };
+        let columns = names(&|column| column.meaning == Meaning::NotUnderstood);
+        let texts = |column: &ColumnReading| column.filled > 0 && means(&column.heading, "remark");
+        let texts = names(&|column| column.meaning == Meaning::Kept && texts(column));
         let unread: Vec<String> = self.unread.iter().map(|remark| format!("'{remark}'")).collect();
-        let told =
-            [("column", columns), ("remark", unread)].into_iter().filter(|(_, names)| !names.is_empty());
+        let told = [("column", columns), ("the texts of column", texts), ("remark", unread)]
+            .into_iter()
+            .filter(|(_, names)| !names.is_empty());
         let told = told.map(|(kind, names)| {
             format!("{kind}{} {}", if names.len() == 1 { "" } else { "s" }, listed(&names, NAMED))
         });

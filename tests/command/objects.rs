@@ -166,10 +166,16 @@ fn the_same_object_is_found_in_two_lists() {
     }
     succeed(here, &format!("evaluate --structures a.csv {HAZARD},{sa} --out e.parquet"));
     let cases = [
-        ("a,b", ["0 of 3 objects changed", "Only before: Fridge."]),
+        ("a,b", ["0 of 3 objects changed", "Removed: Fridge."]),
         ("b,c", ["1 of 3 objects changed", "0.30 × 2.00 m → 0.90 × 0.35 × 2.00 m"]),
-        ("d,f", ["0 of 3 objects changed", "Only before: Fridge."]),
-        ("a,e", ["4 objects: how likely to overturn, 2 alternatives", "e.parquet: overturns in 50 years"]),
+        ("d,f", ["0 of 3 objects changed", "Removed: Fridge."]),
+        (
+            "a,e",
+            [
+                "4 objects: how likely to overturn in 50 years, 2 alternatives",
+                "e.parquet: overturns in 50 years",
+            ],
+        ),
     ];
     for (files, told) in cases {
         let files = files.split(',').map(|file| format!("{file}.parquet")).collect::<Vec<_>>().join(",");

@@ -258,7 +258,10 @@ fn each_column_and_line_has_a_role() {
     let list = "No.,name,Room,Mass (kg),width,height,Value,Remarks\nRow A\n1,a,R1,80,0.5,2,100,old\n,Total,,80,,,,\n";
     let (objects, reading, _) = told(list);
     assert_eq!((objects.len(), reading.rows), (1, 1));
-    assert_eq!(reading.gaps().unwrap(), "Not understood in list.csv: columns 'Value', 'Remarks'.");
+    assert_eq!(
+        reading.gaps().unwrap(),
+        "Not understood in list.csv: column 'Value'; the texts of column 'Remarks'."
+    );
     assert_eq!(reading.others, ["line 2: section 'Row A'", "line 4: a row of totals"]);
     let labels: Vec<&str> = objects[0].labels.iter().map(|(_, cell)| cell.as_str()).collect();
     assert_eq!(labels, ["1", "R1", "old", "Row A"]);

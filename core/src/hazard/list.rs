@@ -6,7 +6,7 @@ use super::probability_in_years;
 use super::site::{Site, SiteRates};
 use crate::object::{LowHigh, RockingObject, UncertaintySource};
 use crate::statistics::Interval;
-use crate::statistics::normal::Z_95;
+use crate::statistics::normal::{self, Z_95};
 use strum::VariantArray;
 
 /// An object of a list: how often it is there, how long at a site, and its annual rate or its probability
@@ -33,26 +33,30 @@ impl Site {
     /// moves it alone.
     pub fn list(&self, list: &[ListedObject]) -> ListProbabilities {
         let list = may_overturn(list);
-        let number = |listed: &ListedObject, change: f64| {
-            let rate = listed.overturning.value.unwrap_or(0.0) * (Z_95 * change).exp();
+        let number_at = |listed: &ListedObject, factor: f64| {
+            let rate = listed.overturning.value.unwrap_or(0.0) * factor;
             listed.count * probability_in_years(rate, listed.years)
         };
-        let sum: f64 = list.iter().map(|listed| number(listed, 0.0)).sum();
+        let sum: f64 = list.iter().map(|listed| number_at(listed, 1.0)).sum();
+        // Limits lie about the mean over what is unknown of each object, to which these sum up.
+        let means: Vec<f64> = list.iter().map(|listed| mean_factor(listed.budget)).collect();
+        let mean = |place: usize, change: f64| number_at(&list[place], means[place] * (Z_95 * change).exp());
+        let mean_sum: f64 = (0..list.len()).map(|place| mean(place, 0.0)).sum();
         // How far each unknown moves the number: one of the site is the same for all objects.
         let mut moves: BTreeMap<_, LowHigh<f64>> = BTreeMap::new();
         for (place, listed) in list.iter().enumerate() {
-            let now = number(listed, 0.0);
+            let now = mean(place, 0.0);
             for &source in UncertaintySource::VARIANTS {
                 let of = if source.is_of_site() { 0 } else { place };
                 for (unknown, change) in listed.budget.of(source).enumerate() {
                     let none = LowHigh { source, low: 0.0, high: 0.0 };
                     let sum = moves.entry((source, of, unknown)).or_insert(none);
-                    sum.low += number(listed, change.low) - now;
-                    sum.high += number(listed, change.high) - now;
+                    sum.low += mean(place, change.low) - now;
+                    sum.high += mean(place, change.high) - now;
                 }
             }
         }
-        let changes = moves.into_values().map(|of| of.map(|moved| (moved / sum).ln_1p() / Z_95));
+        let changes = moves.into_values().map(|of| of.map(|moved| (moved / mean_sum).ln_1p() / Z_95));
         let budget = Budget { changes: changes.collect() };
         if list.is_empty() {
             return ListProbabilities::default();
@@ -61,7 +65,7 @@ impl Site {
         let count = list.iter().map(|listed| listed.count).sum();
         ListProbabilities {
             at_least_one: self.falls(&list, &own.collect::<Vec<_>>()).map(|n| probability_in_years(n, 1.0)),
-            expected_number: budget.limit_rate(sum, count).into(),
+            expected_number: Interval { value: sum, ..budget.limit_rate(mean_sum, count) }.into(),
         }
     }
 
@@ -101,6 +105,16 @@ impl GroundMotion {
             expected_number: Interval { value: sum(|p| p.value), low: sum(|p| p.low), high: sum(|p| p.high) },
         }
     }
+}
+
+/// The mean over what is unknown of an object, of its rate over its estimate: each unknown z is standard
+/// normal, and changes ln(rate) by z `high` above its median, by -z `low` below.
+fn mean_factor(budget: &Budget) -> f64 {
+    let of_object = budget.changes.iter().filter(|change| !change.source.is_of_site());
+    let mean = |change: &LowHigh<f64>| {
+        [change.low, change.high].map(|end| (0.5 * end.powi(2)).exp() * normal::cdf(end)).iter().sum::<f64>()
+    };
+    of_object.map(mean).product()
 }
 
 fn may_overturn<'a>(list: &[ListedObject<'a>]) -> Vec<ListedObject<'a>> {

@@ -9,8 +9,8 @@ pub struct Changed {
     pub object: Object,
 }
 
-/// How much a base is widened on each side, of its width.
-const WIDER: [f64; 2] = [0.1, 0.25];
+/// How much both sides of a base are widened.
+const WIDER: [f64; 2] = [0.2, 0.5];
 const LOWER: f64 = 0.25;
 
 impl Object {
@@ -21,7 +21,7 @@ impl Object {
         if let (Some(width), Some(height), None) =
             (self.shape.width, self.shape.height, self.shape.beam_mass_ratio)
         {
-            all.extend(WIDER.map(|part| self.widened(width, 2.0 * part * width)));
+            all.extend(WIDER.map(|part| self.widened(width, part)));
             let mut object = self.clone();
             let centre_height = self.shape.centre_height.unwrap_or(0.5 * height);
             object.shape.centre_height = Some((1.0 - LOWER) * centre_height);
@@ -37,9 +37,10 @@ impl Object {
         all
     }
 
-    fn widened(&self, width: f64, added: f64) -> Changed {
-        let object = self.resized(width + added, self.shape.depth.map(|depth| depth + added));
-        Changed { words: format!("base {} % wider", number::fixed(100.0 * added / width, 0)), object }
+    fn widened(&self, width: f64, part: f64) -> Changed {
+        let wider = |side: f64| (1.0 + part) * side;
+        let object = self.resized(wider(width), self.shape.depth.map(wider));
+        Changed { words: format!("base {} % wider", number::fixed(100.0 * part, 0)), object }
     }
 
     /// With eta known: one standard deviation below and above its median.

@@ -171,12 +171,12 @@ fn a_list_falls_as_its_objects_do_apart_or_together() {
             ListedObject { object: &objects[number], count, years, overturning, budget }
         };
         let rate = |number: usize| rates[number].states.overturning.estimate().unwrap();
-        // One object alone is what it is by itself.
+        // One object alone is what it is by itself; limits of a number lie about a mean.
         let ListProbabilities { at_least_one, expected_number } = site.list(&[listed(0, 1.0, 50.0)]);
         for found in [at_least_one, expected_number].map(|found| found.estimate().unwrap()) {
             let p = rate(0).map(|rate| probability_in_years(rate, 50.0));
             for (found, expected) in [(found.value, p.value), (found.low, p.low), (found.high, p.high)] {
-                assert!((found / expected).ln().abs() < 0.02, "{found} for {expected}");
+                assert!((found / expected).ln().abs() < 0.05, "{found} for {expected}");
             }
         }
         let all = [listed(0, 1.0, 1e-6), listed(1, 2.0, 1e-6), listed(2, 1.0, 1e-6)];
@@ -202,7 +202,7 @@ fn a_change_is_one_thing_and_is_what_it_says() {
     let changes = object.changes();
     let [wider, widest] = [&changes[0].object.shape, &changes[1].object.shape];
     close(wider.width.unwrap(), 0.6, 1e-12);
-    close(wider.depth.unwrap(), 0.9, 1e-12);
+    close(wider.depth.unwrap(), 0.96, 1e-12);
     close(widest.width.unwrap(), 0.75, 1e-12);
     assert_eq!(changes[2].object.shape.centre_height, Some(0.75 * 0.95));
     let median = object.sides().unwrap()[0].structure.eta;
