@@ -58,7 +58,7 @@ parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 parser.add_argument("rockfrag", type=pathlib.Path)
 parser.add_argument("--python", type=pathlib.Path)
 options = parser.parse_args()
-path = f"{options.rockfrag.absolute().parent}:{os.environ['PATH']}"
+path = f"{options.rockfrag.absolute().parent}{os.pathsep}{os.environ['PATH']}"
 environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
 pages = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
 python = options.python and options.python.absolute()
