@@ -90,7 +90,12 @@ def peer(name, file):
     return float(run(*command, environment=ONE_THREAD)[1])
 
 
-row = lambda *cells: print("|", *(f"{cell} |" for cell in cells[:-1]), f"{cells[-1]:.3g} |")
+def row(work, unit, peer, pairs):
+    """Prints the medians of pairs, ours and theirs."""
+    ours, theirs = (statistics.median(side) for side in zip(*pairs))
+    print(f"| {work} | {ours:.3g} {unit} | {peer} | {theirs:.3g} {unit} | {theirs / ours:.2g} |")
+
+
 PEERS = {"read": read, "rocking": rocking, "fits": fits}
 if sys.argv[1] in PEERS:
     sys.exit(print(PEERS[sys.argv[1]](sys.argv[2])))
@@ -103,20 +108,17 @@ with tempfile.TemporaryDirectory() as folder:
     simulate = lambda name: tool("simulate", "responses", *size, "--in", at(name))
     tool("sample-scenarios", "scenarios", "--samples=100")
     csgm("motions")
-    print("| work | rockfrag | against | theirs | ratio |\n|---|---|---|---|---|")
-    pairs = [(simulate("motions")[0], peer("read", at("motions"))) for _ in range(REPEAT)]
-    ours, theirs = (statistics.median(side) for side in zip(*pairs))
-    row("simulate, whole command", f"{ours:.3f} s", "pyarrow, the read alone", f"{theirs:.3f} s", ours / theirs)
+    print("| work | rockfrag | against | theirs | theirs / ours |\n|---|---|---|---|---|")
     solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
-    ours, theirs = solver_us / 1e3, peer("rocking", at("motions"))
-    row("solver, one core, a motion", f"{ours:.4f} ms", "Numba, Taylor series", f"{theirs:.3f} ms", theirs / ours)
+    pairs = [(solver_us / 1e3, peer("rocking", at("motions")))]
+    row("solver, one core, a motion", "ms", "Numba, Taylor series", pairs)
+    pairs = [(simulate("motions")[0], peer("read", at("motions"))) for _ in range(REPEAT)]
+    row("simulate, whole command", "s", "pyarrow, the read alone", pairs)
     tool("simulate", "paper", "--structures=paper", "--in", at("motions"))
     fit = lambda name: tool(name, name, "--all", "--threads=1", "--in", at("paper"))[0]
     pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits", at("paper"))) for _ in range(REPEAT)]
-    ours, theirs = (statistics.median(side) for side in zip(*pairs))
-    row("all fits, one core", f"{ours:.3f} s", "statsmodels, the fits alone", f"{theirs:.3f} s", theirs / ours)
+    row("all fits of both structures, one core", "s", "statsmodels, the fits alone", pairs)
     small = simulate("motions")[2]
     tool("sample-scenarios", "scenarios", "--samples=1000")
     csgm("ten")
-    large = simulate("ten")[2]
-    row("simulate 35,000 motions, memory", f"{large:.0f} MB", "3500 motions", f"{small:.0f} MB", large / small)
+    row("simulate, peak memory, 35,000 motions", "MB", "3500 motions", [(simulate("ten")[2], small)])
