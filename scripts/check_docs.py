@@ -4,6 +4,7 @@
     ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
     ```python     run as one script a page by --python (a Python with the package), but for those with "# not run"
     ```console    not run: what installs, compiles, or needs a cluster
+    `scripts/...` and the like, and links: must exist
 
 Each page has a folder of its own with data, scripts, python and pipeline.yaml of the repository.
 """
@@ -18,6 +19,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
+# Scripts, tests and data that make the numbers of a page, and pages and pictures that it links.
+NAMED = re.compile(r"`((?:scripts|core|tests|data)/[\w./]+)|\]\((?!http)([^)#]+)")
 BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -31,6 +34,9 @@ def missing(shown, output):
 def faults(page, environment, python):
     """What is wrong with a page."""
     text = page.read_text()
+    for name in map("".join, NAMED.findall(text)):
+        if not any((folder / name).exists() for folder in (ROOT, page.parent)):
+            yield f"there is no {name}"
     blocks = [(match[1], match[2], text[: match.start()].count("\n") + 1) for match in BLOCK.finditer(text)]
     with tempfile.TemporaryDirectory() as folder:
         both = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "text": True}
