@@ -24,7 +24,7 @@ use crate::pipeline::options::{SeveralErrors, is_path, name_of, on_line};
 use crate::source::silence_decoder_panics;
 use crate::stages::{self, StageKind, init, inspect};
 use crate::table::frame::Format;
-use crate::table::provenance::{Provenance, text_of};
+use crate::table::provenance::{Provenance, on_command_line};
 
 const NO_THREAD: &str = "a thread cannot start";
 /// Letters of an error, which may name what a file says.
@@ -243,8 +243,8 @@ fn dry_run(calls: &[Call], common: &Common) -> anyhow::Result<(String, bool)> {
             }
         };
         writeln!(text, "{}: {}", call.name, shown(&would, LONGEST_TEXT))?;
-        for (name, value) in &call.options {
-            writeln!(text, "    --{name} {}", shown(&text_of(value), LONGEST_TEXT))?;
+        for option in call.options.iter().flat_map(|(name, value)| on_command_line(name, value)) {
+            writeln!(text, "    {}", shown(&option, LONGEST_TEXT))?;
         }
         for read in call.stage.inputs().iter().filter(|read| !read.paths.is_empty()) {
             let paths: Vec<String> = read.paths.iter().map(|path| path.display().to_string()).collect();

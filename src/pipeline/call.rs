@@ -30,7 +30,6 @@ pub struct Call {
     pub options: BTreeMap<String, Value>,
 }
 
-/// What a call would make.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     pub made: Provenance,
@@ -62,12 +61,13 @@ impl Plan {
         let read: HashSet<PathBuf> =
             inputs.filter_map(|file| split_sheet(&file.path).0.canonicalize().ok()).collect();
         for out in outs {
-            let Ok(real) = out.canonicalize() else { continue };
+            // A pipe may have no other name.
+            let real = out.canonicalize().unwrap_or(out.clone());
             let problem = match () {
                 _ if read.contains(&real) => "is read and cannot be written too",
                 _ if real.is_dir() => "is a folder; expected a file",
                 _ if is_pipe(&real) => "is a pipe or device; expected a file",
-                _ if common.force => continue,
+                _ if common.force || !out.exists() => continue,
                 _ if real.metadata()?.permissions().readonly() => "is read-only; --force replaces it",
                 _ if self.is_ours(out, common.is_run) => continue,
                 _ => {
@@ -175,7 +175,6 @@ fn files(read: &Read, outputs: &[PathBuf], planned: &Planned) -> Result<Vec<Path
     Ok(files)
 }
 
-/// Whether a file is no table.
 pub fn is_view(path: &Path) -> bool {
     path.extension().is_some_and(|ending| ending != "parquet")
 }

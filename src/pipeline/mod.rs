@@ -17,7 +17,6 @@ use crate::table::frame::Format;
 /// A struct of options, which serde makes of what is given, and a function that runs it. As serde writes
 /// them, without the paths, the options enter the key of what is made.
 pub trait Stage {
-    /// Returns what its options exclude, and need.
     fn rules() -> Vec<Rule>
     where
         Self: Sized,
@@ -45,6 +44,5 @@ pub trait Stage {
         Format::Text
     }
 
-    /// Runs the stage. Returns the text to print.
     fn run(&self, context: &Context) -> anyhow::Result<String>;
 }

@@ -19,7 +19,6 @@ use super::paths::is_word;
 use crate::number::{self, count, rounded};
 use crate::table::provenance::text_of;
 
-/// What is given to a stage, by option.
 pub type Given = Map<String, Value>;
 
 /// What options of a stage exclude, and need.
@@ -37,7 +36,6 @@ fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static 
 }
 
 impl Rule {
-    /// Says how options break it.
     pub fn broken(&self, given: &Given) -> Option<String> {
         match self {
             Rule::Either(these, those) => {
@@ -165,7 +163,6 @@ fn read(arg: &Arg, text: &str) -> Result<Value, String> {
     Ok(typed.unwrap_or(text.into()))
 }
 
-/// Gathers the options on a command line, as texts.
 pub fn on_line(command: &Command, matches: &ArgMatches) -> Given {
     let texts = command.get_arguments().filter_map(|arg| {
         let id = arg.get_id().as_str();
@@ -176,7 +173,6 @@ pub fn on_line(command: &Command, matches: &ArgMatches) -> Given {
     texts.collect()
 }
 
-/// Returns the defaults of a stage, whose files are in a folder.
 pub fn defaults(command: &Command, folder: &Path) -> Given {
     let default = |arg: &Arg| {
         let text = arg.get_default_values().first().map(|text| text.to_string_lossy());
@@ -231,7 +227,6 @@ impl FromStr for Steps {
     }
 }
 
-/// Returns a parser of ascending numbers in a range; `expected` describes them.
 pub fn steps(
     range: RangeInclusive<f64>,
     expected: &'static str,
@@ -266,7 +261,6 @@ impl UsageError {
 #[error("{}", .0.join("; "))]
 pub struct SeveralErrors(pub Vec<String>);
 
-/// Lines that are printed of a list.
 const MOST_LINES: usize = 16;
 
 /// Returns the first lines of a printed list after its headings, and where all are.

@@ -14,7 +14,6 @@ pub fn is_word(option: &str, text: &str) -> bool {
     WORDS.iter().any(|(of, words)| *of == option && words.contains(&text))
 }
 
-/// What a stage reads under a flag.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Read {
     pub flag: &'static str,

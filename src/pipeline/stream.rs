@@ -20,7 +20,6 @@ pub fn pipelined<A: Send, B: Send>(
     done.into_iter().try_for_each(sink)
 }
 
-/// Returns the items of `source` in batches of `size`.
 pub fn batches<A>(
     source: impl Iterator<Item = A>,
     size: usize,

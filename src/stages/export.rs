@@ -69,7 +69,7 @@ const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
     fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &ModelArgs::RULES].concat()
+        [&StructureArgs::RULES[..], &ModelArgs::RULES, &[StructureArgs::COLUMNS]].concat()
     }
 
     fn inputs(&self) -> Vec<Read> {
@@ -91,12 +91,12 @@ impl Stage for Export {
 
     fn check(&self) -> anyhow::Result<()> {
         self.model.check()?;
-        self.objects(&mut Reader::default()).map(|_| ())
+        self.objects(&mut self.structures.list.reader()).map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let models = self.model.read()?;
-        let mut reader = Reader::default();
+        let mut reader = self.structures.list.reader();
         let objects = self.objects(&mut reader)?;
         context.tell(reader.warnings, reader.readings);
         let ids = distinct_ids(objects.iter().map(|object| object.name.as_str()));

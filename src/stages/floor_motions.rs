@@ -20,7 +20,6 @@ use crate::table::file::Partition;
 use crate::table::motions::{ACCELERATION, Sampled, batch, open, parts, spectral_period_s};
 use crate::table::rows;
 
-/// Motions that a thread takes at once.
 const AT_ONCE: usize = 32;
 
 /// Filter motions through a linear building to one of its floors

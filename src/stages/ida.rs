@@ -20,7 +20,6 @@ use serde::{Deserialize, Serialize};
 use super::shared::fits::text;
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
-use crate::inputs::Reader;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Rule, number};
 use crate::pipeline::paths::{Read, part};
@@ -74,7 +73,6 @@ pub struct Ida {
     structures: StructureArgs,
 }
 
-/// A response at an intensity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct StripeRow {
     response: ResponseRow,
@@ -105,7 +103,7 @@ struct SingleRecordIda<'a> {
 
 impl Stage for Ida {
     fn rules() -> Vec<Rule> {
-        StructureArgs::RULES.to_vec()
+        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS]].concat()
     }
 
     fn inputs(&self) -> Vec<Read> {
@@ -122,13 +120,13 @@ impl Stage for Ida {
             _ if to <= from => format!("an intensity above {from}"),
             ScaledMeasure::Pga if *to > MOST_SCALED => "a PGA up to 20 g: is it in m/s2?".to_string(),
             ScaledMeasure::Pgv if *to > MOST_SCALED => "a PGV up to 20 m/s: is it in cm/s?".to_string(),
-            _ => return self.structures.resolve(&mut Reader::default()).map(|_| ()),
+            _ => return self.structures.resolve(&mut self.structures.list.reader()).map(|_| ()),
         };
         Err(UsageError::because(format!("to is {to}; expected {expected}")))
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let mut reader = Reader::default();
+        let mut reader = self.structures.list.reader();
         let objects = self.structures.resolve(&mut reader)?;
         context.tell(reader.warnings, reader.readings);
         let structures: Vec<&Structure> = objects.iter().map(|directions| &directions[0]).collect();

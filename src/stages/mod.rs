@@ -39,7 +39,6 @@ pub struct StageKind {
     make: fn(Given) -> serde_json::Result<Made>,
 }
 
-/// A stage with its options by flag.
 type Made = (Box<dyn Stage>, BTreeMap<String, Value>);
 
 /// All stages, in the order of a run.
@@ -104,7 +103,9 @@ impl StageKind {
         let options = options.filter(|(option, value)| !is_file(option, value)).collect();
         let (outputs, endings) = (stage.outputs(), stage.endings());
         let is_known = |ending: &OsStr| endings.iter().any(|known| ending == *known);
-        let is_other = |out: &&PathBuf| !out.extension().map_or(endings.len() == 1, is_known);
+        // Tables go to no pipe.
+        let is_other =
+            |out: &&PathBuf| out.starts_with("-") || !out.extension().map_or(endings.len() == 1, is_known);
         if let Some(out) = outputs.last().filter(is_other) {
             let (out, endings) = (out.display(), endings.join(", ."));
             let problem = format!("--out is {out}; expected a name that ends in .{endings}");
@@ -122,7 +123,6 @@ pub fn default_options(stage: &str) -> BTreeMap<String, Value> {
     call.map_or(BTreeMap::new(), |call| call.options)
 }
 
-/// Leaves out what is null or empty.
 fn stated(value: Value) -> Option<Value> {
     match value {
         Value::Null => None,

@@ -47,7 +47,6 @@ pub struct SampleScenarios {
     out: PathBuf,
 }
 
-/// Scenarios that are in memory at once.
 const AT_ONCE: usize = 32_768;
 
 /// Magnitudes that the paper samples, and distances up to those, km: Eqs. 2 and 3 hold near the fault.

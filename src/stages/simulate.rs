@@ -13,7 +13,6 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
-use crate::inputs::Reader;
 use crate::number::{self, counted, name};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
@@ -62,7 +61,8 @@ pub struct Simulate {
 
 impl Stage for Simulate {
     fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &[Rule::Either(&["partition"], &["trace"])]].concat()
+        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS, Rule::Either(&["partition"], &["trace"])]]
+            .concat()
     }
 
     fn inputs(&self) -> Vec<Read> {
@@ -75,11 +75,11 @@ impl Stage for Simulate {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.structures.or_paper().resolve(&mut Reader::default()).map(|_| ())
+        self.structures.or_paper().resolve(&mut self.structures.list.reader()).map(|_| ())
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (structures, mut reader) = (self.structures.or_paper(), Reader::default());
+        let (structures, mut reader) = (self.structures.or_paper(), self.structures.list.reader());
         let objects = structures.resolve(&mut reader)?;
         let motions = motions::open(&self.input, self.partition)?;
         self.expect_traced(&motions)?;

@@ -22,7 +22,6 @@ use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::{motions, rows};
 
-/// Scenarios that a thread takes at once.
 const CHUNK: usize = 4;
 /// Scenarios that are held in memory together, and samples of their longest motions.
 const AT_ONCE: usize = 128;

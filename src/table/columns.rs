@@ -14,7 +14,6 @@ use uuid::Uuid;
 
 use super::{TableError, dictionary};
 
-/// Consecutive rows of a table.
 #[derive(Debug, Clone)]
 pub struct Batch {
     pub path: Arc<Path>,

@@ -138,7 +138,6 @@ impl ParquetTable {
         ParquetTable { rows: at(index)..at(index + 1), ..self }
     }
 
-    /// Keeps the first rows, at most this many.
     pub fn head(self, most: usize) -> ParquetTable {
         ParquetTable { rows: 0..most.min(self.rows()), ..self }
     }
@@ -157,12 +156,10 @@ impl ParquetTable {
         self.rows.len()
     }
 
-    /// Returns the footer of the first file.
     pub fn metadata(&self) -> &ArrowReaderMetadata {
         &self.files[0].metadata
     }
 
-    /// Returns the schema of the first file.
     pub fn schema(&self) -> &SchemaRef {
         self.metadata().schema()
     }
@@ -299,10 +296,22 @@ pub fn entries(folder: &Path) -> Result<Vec<PathBuf>, TableError> {
 
 /// Returns a file itself, or the Parquet files of a folder in the order of their names.
 pub fn tables(path: &Path) -> Result<Vec<PathBuf>, TableError> {
-    match path.is_dir() {
-        true => Ok(entries(path)?.into_iter().filter(|path| is_table(path)).collect()),
-        false => Ok(vec![path.to_path_buf()]),
+    if !path.is_dir() {
+        return Ok(vec![path.to_path_buf()]);
     }
+    let files = entries(path)?;
+    let is_of_value = |of: &&PathBuf| {
+        of.is_dir() && of.strip_prefix(path).is_ok_and(|name| name.to_string_lossy().contains('='))
+    };
+    if let Some(part) = files.iter().find(is_of_value) {
+        let (part, whole) = (part.file_name().unwrap_or_default().display(), path.display());
+        let problem = format!(
+            "a column is in the names of its folders ({part}); expected files with all columns, in DuckDB by \
+             COPY (FROM '{whole}/**/*.parquet') TO 'all.parquet'"
+        );
+        return Err(TableError::table(path, problem));
+    }
+    Ok(files.into_iter().filter(|path| is_table(path)).collect())
 }
 
 pub fn is_table(path: &Path) -> bool {

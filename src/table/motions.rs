@@ -29,6 +29,7 @@ pub struct MotionRow {
     pub motion_id: String,
     pub suite: Option<String>,
     pub earthquake: Option<String>,
+    pub scenario_id: Option<i64>,
     pub mw: Option<f64>,
     pub re_km: Option<f64>,
     pub dt_s: f64,

@@ -48,7 +48,6 @@ pub fn own_entry<'a>(metadata: &'a ParquetMetaData, key: &str) -> Option<&'a str
     footer.key_value_metadata()?.iter().find(|pair| pair.key == key)?.value.as_deref()
 }
 
-/// A file that is read.
 #[derive(Debug, Clone, Default, Serialize, Deserialize)]
 pub struct InputFile {
     /// Its name, below the innermost folder that has all files of its flag.
@@ -84,6 +83,23 @@ pub fn text_of(value: &Value) -> String {
         Value::Array(items) => items.iter().map(text_of).collect::<Vec<_>>().join(","),
         other => other.to_string(),
     }
+}
+
+/// Returns an option as a shell takes it, once for each structure; a switch that is off is not given.
+pub fn on_command_line(name: &str, value: &Value) -> Vec<String> {
+    match value {
+        Value::Array(items) if items.iter().all(Value::is_object) => {
+            items.iter().flat_map(|item| on_command_line(name, item)).collect()
+        }
+        Value::Bool(is_on) => is_on.then(|| format!("--{name}")).into_iter().collect(),
+        other => vec![format!("--{name} {}", quoted(text_of(other)))],
+    }
+}
+
+/// Quotes what a shell would not take as it is.
+fn quoted(word: String) -> String {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "-_=.,:/+%".contains(letter);
+    if word.chars().all(is_plain) { word } else { format!("'{}'", word.replace('\'', r"'\''")) }
 }
 
 impl Provenance {
@@ -124,7 +140,6 @@ impl Provenance {
         self.inputs.get(flag).map(|files| joined(files))
     }
 
-    /// Returns the names of the first files that were read under a flag.
     pub fn names(&self, flag: &str) -> Option<String> {
         let names = self.inputs.get(flag)?.iter().take(MOST_NAMED).map(|file| file.name.as_str());
         Some(names.collect::<Vec<_>>().join(", "))

@@ -55,6 +55,7 @@ pub struct ResponseRow {
     /// None after overturning: the final rotation is not a demand.
     pub edp: Option<f64>,
     pub impacts: Option<i32>,
+    pub scenario_id: Option<i64>,
     pub mw: Option<f64>,
     pub re_km: Option<f64>,
     pub earthquake: Option<String>,

@@ -17,7 +17,6 @@ pub const HAZARD: &str = concat!("--hazard ", env!("CARGO_MANIFEST_DIR"), "/data
 pub const BLOCK: &str = "--width 0.5 --height 2.0";
 pub const STRUCTURE: &str = "--p 2.5 --alpha 0.2 --eta 0.92";
 
-/// The command, called in `folder`.
 pub fn rockfrag(folder: &Path, arguments: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_rockfrag"));
     command.current_dir(folder).args(arguments.split_whitespace());
@@ -55,7 +54,6 @@ pub fn evaluated(folder: &Path, arguments: &str) -> Vec<Value> {
     serde_json::from_str(&printed).unwrap()
 }
 
-/// A number of such a row.
 #[track_caller]
 pub fn number(row: &Value, column: &str) -> f64 {
     row[column].as_f64().unwrap_or_else(|| panic!("{column} of {row}"))
@@ -66,7 +64,6 @@ pub fn near(a: f64, b: f64, tolerance: f64) -> bool {
     (a / b - 1.0).abs() <= tolerance
 }
 
-/// A folder with these files.
 pub fn folder(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().unwrap();
     files.iter().for_each(|(name, text)| std::fs::write(folder.path().join(name), text).unwrap());
@@ -98,7 +95,6 @@ pub fn small_run() -> tempfile::TempDir {
 /// The files of the small run.
 pub const FILES: [&str; 6] = ["scenarios", "motions", "responses", "pex", "pro", "paper"];
 
-/// A folder with this pipeline file.
 pub fn folder_with(pipeline: &str) -> tempfile::TempDir {
     folder(&[("pipeline.yaml", pipeline)])
 }
@@ -133,13 +129,11 @@ pub fn write_motions(path: &Path, dt_s: f64, motions: &[&[f64]]) {
     write(path, motions_of(Arc::new(Int64Array::from_iter_values(0..motions.len() as i64)), dt_s, motions));
 }
 
-/// The columns of a motions file.
 pub fn motions_of(ids: ArrayRef, dt_s: f64, motions: &[&[f64]]) -> Vec<(&'static str, ArrayRef)> {
     let dt = numbers(&vec![dt_s; motions.len()]);
     vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", lists(motions))]
 }
 
-/// The rows of a table as CSV.
 pub fn rows(folder: &Path, table: &str) -> String {
     succeed(folder, &format!("inspect --head 100000 --format csv {table}")).0
 }
@@ -156,12 +150,10 @@ pub fn ran(stderr: &str) -> Vec<&str> {
     lines.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// What made a file.
 pub fn made(path: &Path) -> Provenance {
     Provenance::read(path).unwrap().unwrap()
 }
 
-/// The bytes of a file.
 pub fn bytes(path: &Path) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }

@@ -13,7 +13,6 @@ use parquet::file::properties::WriterProperties;
 use crate::common::{BLOCK, STRUCTURE, bytes, fail, folder, made, ran, rockfrag, small_run, succeed};
 use crate::common::{write_motions, write_with};
 
-/// The first rows of a file, and its metadata.
 fn first_batch(path: &Path) -> (RecordBatch, Option<Vec<KeyValue>>) {
     let reader = ParquetRecordBatchReaderBuilder::try_new(fs::File::open(path).unwrap()).unwrap();
     let pairs = reader.metadata().file_metadata().key_value_metadata().cloned();
@@ -233,8 +232,11 @@ fn a_pipe_is_read_once_and_never_replaced() {
             [&printed, &direct].map(|text| text.lines().rev().skip(1).collect::<Vec<_>>());
         assert_eq!((code, printed), (Some(0), direct), "{call}");
     }
+    let own = "rockfrag export --structures <(sed s/width/w1/ list.csv) --columns width=w1 --to pelicun";
+    let evaluate = "rockfrag evaluate --pga 0.3 --pgv 0.3 --out e.parquet";
+    let two = "--structure 'name=a b,p=1,alpha=.2,eta=.9' --structure name=c,width=1,height=3";
+    let pasted = format!("rockfrag inspect e.parquet | grep -e --structure | xargs {evaluate}");
     let little = "ulimit -v 4000000; rockfrag";
-    let evaluate = "rockfrag evaluate --width 0.5 --height 2 --pga 0.3 --pgv 0.3";
     for (call, code, named) in [
         ("rockfrag evaluate --width 0.5 --height 2 --hazard /dev/zero", 1, "/dev/zero"),
         (&format!("{little} run /dev/zero"), 2, "device"),
@@ -242,7 +244,11 @@ fn a_pipe_is_read_once_and_never_replaced() {
         ("rockfrag evaluate --structures - --hazard h.csv < list.csv", 0, ""),
         // What cannot be read is not called damaged: an error of input or output.
         ("ln -s /proc/self/mem mem.parquet; rockfrag inspect mem.parquet", 1, "os error 5"),
-        (&format!("mkfifo p.parquet; {evaluate} --force --out p.parquet"), 2, "p.parquet"),
+        ("rockfrag sample-scenarios --out >(cat)", 2, "device"),
+        ("rockfrag sample-scenarios --out -", 2, ".parquet"),
+        ("mkdir -p hive/scenario=1; rockfrag simulate --in hive", 1, "scenario=1"),
+        (own, 0, ""),
+        (&format!("{evaluate} {two}; {pasted}"), 0, "up to date"),
     ] {
         let (found, _, stderr) = shell(call);
         assert!(found == Some(code) && stderr.contains(named), "{call}: {stderr}");

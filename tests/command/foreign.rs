@@ -61,10 +61,11 @@ fn half_unsigned_and_whole_numbers_stay_themselves() {
     type Half = <Float16Type as ArrowPrimitiveType>::Native;
     let half = [0.0, -2.5, 0.125].map(Half::from_f64).to_vec();
     let (samples, id) = ("acceleration_m_s2", "motion_id");
-    let cases: [(&str, ArrayRef, &str, Value); 8] = [
+    let cases: [(&str, ArrayRef, &str, Value); 9] = [
         (samples, list(Float16Builder::new(), half), "pga_m_s2", 2.5.into()),
         (samples, list(UInt16Builder::new(), vec![0, 3, 1]), "pga_m_s2", 3.0.into()),
         (samples, list(UInt32Builder::new(), vec![0, 4, 1]), "pga_m_s2", 4.0.into()),
+        ("scenario_id", Arc::new(UInt64Array::from(vec![7])), "scenario_id", 7.into()),
         ("mw", Arc::new(UInt64Array::from(vec![6])), "mw", 6.0.into()),
         ("tp_s", Arc::new(Float16Array::from(vec![Half::from_f64(0.5)])), "tp_s", 0.5.into()),
         (id, Arc::new(UInt64Array::from(vec![u64::MAX])), id, "18446744073709551615".into()),

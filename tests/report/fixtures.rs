@@ -180,6 +180,7 @@ pub fn figures(count: usize) -> Vec<Figure> {
         motion_id: "1".to_string(),
         suite: Some(suite.to_string()),
         earthquake: None,
+        scenario_id: None,
         mw: Some(6.5),
         re_km: Some(10.0),
         dt_s: 0.01,

@@ -48,7 +48,7 @@ pub enum Implausibility {
     #[error("no sample below 0; expected both signs: a spectrum, or absolute values?")]
     OneSided,
     #[error(
-        "velocity {} m/s at the end; expected rest: an uncorrected baseline (--baseline linear)?",
+        "velocity {} m/s at the end; expected rest: an uncorrected baseline (import-motions --baseline linear)?",
         digits(.velocity_m_s)
     )]
     Drift { velocity_m_s: f64 },

@@ -23,7 +23,6 @@ use serde::{Deserialize, Serialize};
 
 use super::shared::model_args::{ModelArgs, Models};
 use super::shared::objects::{StructureArgs, named};
-use super::shared::reading_args::ReadingArgs;
 use crate::answer::{self, Answer, AnswerTable, Detail, Question, assess, variants_beside};
 use crate::chart::{DPI, png, svg};
 use crate::document::{Document, PageArgs, sheet, workbook};
@@ -69,9 +68,9 @@ pub struct Evaluate {
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
     #[arg(long, value_name = "M/S", value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
     vs30: Option<f64>,
-    #[command(flatten)]
-    #[serde(flatten)]
-    reading: ReadingArgs,
+    /// Years represented by ground-motion fields
+    #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
+    effective_years: Option<f64>,
     /// Exposure time, years
     #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
     years: f64,
@@ -166,7 +165,7 @@ impl Stage for Evaluate {
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
-        let (models, mut reader) = (self.model.read()?, self.reading.reader());
+        let (models, mut reader) = (self.model.read()?, self.structures.list.reader());
         if let Some(path) = &self.input {
             let (rows, text) = table::evaluate(self, path, &mut reader, &models, context)?;
             reader.expect_used()?;
@@ -251,7 +250,7 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, reader: &mut Reader) -> anyhow::Result<Site> {
-        let mut hazard = hazard::read(&self.hazard, reader, self.reading.effective_years)?;
+        let mut hazard = hazard::read(&self.hazard, reader, self.effective_years)?;
         match &mut hazard {
             Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
                 *pgv_pga = self.ratio.map(PgvPgaRatio::given);

@@ -14,11 +14,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::visible;
 use crate::pipeline::options::number;
-use crate::stages::shared::reading_args::{ListArgs, ReadingArgs};
+use crate::stages::shared::reading_args::ListArgs;
 use crate::table::columns::numbers;
 use crate::table::file::{ParquetTable, is_table};
 use crate::table::frame::{self, Format};
-use crate::table::provenance::{Provenance, text_of};
+use crate::table::provenance::{Provenance, on_command_line};
 use crate::table::{dictionary, rows};
 
 /// Show what a file holds and where it came from, or how a list, hazard, table of motions or record is read
@@ -33,8 +33,9 @@ pub struct Inspect {
     /// text, csv or json
     #[arg(long, default_value = "text")]
     pub format: Format,
-    #[command(flatten)]
-    reading: ReadingArgs,
+    /// Years represented by ground-motion fields
+    #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
+    effective_years: Option<f64>,
     #[command(flatten)]
     list: ListArgs,
     /// Time step of a record, s
@@ -67,7 +68,6 @@ struct Inspected {
 }
 
 impl Inspect {
-    /// The text to print.
     pub fn run(&self) -> anyhow::Result<String> {
         if !self.file.is_dir() && !is_table(&self.file) {
             return self.own();
@@ -100,15 +100,13 @@ fn above(lines: &[String], table: &str) -> String {
     lines.collect::<String>() + "\n" + table
 }
 
-/// What made a table, in lines.
 fn origin(made: Provenance) -> Vec<String> {
-    let options = made.arguments.iter().map(|(name, values)| format!("  --{name} {}", text_of(values)));
-    let warnings = made.warnings.lines().into_iter().map(|line| format!("  warning: {line}"));
+    let options = made.arguments.iter().flat_map(|(name, value)| on_command_line(name, value));
+    let warnings = made.warnings.lines().into_iter().map(|line| format!("warning: {line}"));
     let first = format!("made by {}, rockfrag {}", made.stage, made.version);
-    std::iter::once(first).chain(options).chain(warnings).collect()
+    std::iter::once(first).chain(options.chain(warnings).map(|line| format!("  {line}"))).collect()
 }
 
-/// The columns of a terminal.
 const WIDTH: usize = 100;
 
 /// Lines that fit the terminal; what is cut stands in the other formats.

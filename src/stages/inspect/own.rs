@@ -65,15 +65,16 @@ impl Inspect {
 
     /// Reads the file as the stage does that takes it.
     fn read(&self) -> anyhow::Result<Own> {
-        let (mut reader, path) = (self.reading.reader(), &self.file);
-        let grid = self.reading.reader().read(path);
+        let (mut reader, path) = (self.list.reader(), &self.file);
+        let grid = self.list.reader().read(path);
         let kind = grid.as_ref().map_or(Kind::Record, Kind::new);
         let read = match kind {
             Kind::List => {
                 objects::read(path, &mut reader, &self.list.defaults()).map(|objects| places(&objects))
             }
-            Kind::Hazard => hazard::read(slice::from_ref(path), &mut reader, self.reading.effective_years)
-                .map(|_| Vec::new()),
+            Kind::Hazard => {
+                hazard::read(slice::from_ref(path), &mut reader, self.effective_years).map(|_| Vec::new())
+            }
             Kind::Intensities => intensities::read(path, &mut reader).map(|_| Vec::new()),
             // What is neither a record nor a table is no table.
             Kind::Record => {

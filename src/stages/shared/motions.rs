@@ -90,6 +90,7 @@ impl Measures {
             outcome: response.outcome.into(),
             edp: response.outcome.demand(),
             impacts: i32::try_from(response.impacts).ok(),
+            scenario_id: motion.scenario_id,
             mw: motion.mw,
             re_km: motion.re_km,
             earthquake: motion.earthquake.clone(),

@@ -65,10 +65,12 @@ pub struct StructureArgs {
     pub structures: Option<PathBuf>,
     #[command(flatten)]
     #[serde(flatten)]
-    list: ListArgs,
+    pub list: ListArgs,
 }
 
 impl StructureArgs {
+    /// Where the list alone has headings.
+    pub const COLUMNS: Rule = Rule::Needs(&["columns", "ignore"], &["structures"]);
     pub const RULES: [Rule; 6] = [
         Rule::Either(&Field::SIZES, &["structure", "structures"]),
         Rule::Either(&["structure"], &["structures"]),

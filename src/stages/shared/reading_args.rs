@@ -9,28 +9,13 @@ use crate::pipeline::options::number;
 
 #[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub struct ReadingArgs {
+pub struct ListArgs {
     /// Column names for headings of lists, hazards and tables of motions
     #[arg(long, value_name = "COLUMN=HEADING,...", value_delimiter = ',')]
     columns: Vec<Rename>,
     /// Headings of columns of these files to leave out
     #[arg(long, value_name = "HEADING,...", value_delimiter = ',')]
     ignore: Vec<String>,
-    /// Years represented by ground-motion fields
-    #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
-    pub effective_years: Option<f64>,
-}
-
-impl ReadingArgs {
-    pub fn reader(&self) -> Reader<'_> {
-        Reader::new(&self.columns, &self.ignore)
-    }
-}
-
-/// What holds for all rows of a list.
-#[derive(Debug, Clone, Default, Args, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct ListArgs {
     /// Number that the floors of a list give the ground floor: 0 or 1
     #[arg(long, value_name = "N", value_parser = number(0..=1_u32, "0 or 1"))]
     ground_floor: Option<u32>,
@@ -43,6 +28,11 @@ pub struct ListArgs {
 }
 
 impl ListArgs {
+    pub fn reader(&self) -> Reader<'_> {
+        Reader::new(&self.columns, &self.ignore)
+    }
+
+    /// What holds for all rows of a list.
     pub fn defaults(&self) -> ListDefaults {
         let building = self.building.as_deref().and_then(Building::parse);
         let ListArgs { ground_floor, storeys, .. } = *self;

@@ -86,7 +86,6 @@ fn add(
     Ok(())
 }
 
-/// The outcomes with their demands, which only overturned structures lack.
 fn outcomes(batch: &Batch) -> Result<Vec<Outcome>, TableError> {
     let words = batch.required_texts("outcome")?.into_iter().zip(batch.numbers("edp")?);
     let outcomes = words.enumerate().map(|(row, (word, edp))| {
