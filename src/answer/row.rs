@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     Bases, Budget, FragilityPoint, GroundMotion, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{Base, LowHigh, Object, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{Base, Object, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
@@ -166,8 +166,7 @@ pub struct RateColumns {
     pub overturning_per_year: Interval<Option<f64>>,
     pub return_period_years: Option<f64>,
     pub years: Option<f64>,
-    /// What each unknown changes in ln of the rate of overturning at its low and high quantile, by standard
-    /// deviation: `eta -0.36 0.31; velocity -0.4 0.4`.
+    /// The changes of [`RateColumns::budget`], as JSON.
     pub rate_changes: Option<String>,
     /// Source of PGV / PGA.
     pub velocity_by: Option<VelocitySource>,
@@ -187,7 +186,7 @@ impl RateColumns {
             overturning_per_year: overturning,
             return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
             years: Some(years),
-            rate_changes: overturning.value.map(|_| changes_in_words(&rates.budget)),
+            rate_changes: overturning.value.and_then(|_| serde_json::to_string(&rates.budget.changes).ok()),
             velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,
             ..RateColumns::default()
@@ -198,21 +197,8 @@ impl RateColumns {
 
     /// What is unknown of the rate of overturning.
     pub fn budget(&self) -> Option<Budget> {
-        let change = |words: &str| {
-            let mut words = words.split(' ');
-            let source = words.next()?.parse().ok()?;
-            let mut number = || words.next()?.parse().ok();
-            Some(LowHigh { source, low: number()?, high: number()? })
-        };
-        let changes = self.rate_changes.as_ref()?.split_terminator(BETWEEN).map(change);
-        Some(Budget { changes: changes.collect::<Option<_>>()? })
+        Some(Budget { changes: serde_json::from_str(self.rate_changes.as_ref()?).ok()? })
     }
-}
-
-fn changes_in_words(budget: &Budget) -> String {
-    let changes = budget.changes.iter();
-    let words = changes.map(|LowHigh { source, low, high }| format!("{source} {low:.4} {high:.4}"));
-    words.collect::<Vec<_>>().join(BETWEEN)
 }
 
 /// What the fragility of an object comes to, over PGA in g or PGV in m/s.
@@ -280,7 +266,7 @@ pub struct UncertaintyColumns {
     pub error_largest: Option<UncertaintySource>,
 }
 
-/// Stands between warnings, and between changes.
+/// Stands between warnings.
 const BETWEEN: &str = "; ";
 
 impl UncertaintyColumns {

@@ -8,9 +8,9 @@ use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::Document;
-use super::list::{not_assessed, pieces};
-use crate::answer::{Alternative, Answer, AnswerTable, Before};
-use crate::number::{self, count, counted, listed, significant};
+use super::list::{named, not_assessed, pieces};
+use crate::answer::{Answer, AnswerTable, Before};
+use crate::number::{self, count, counted, significant};
 
 /// Objects that are named in a line.
 const NAMED: usize = 20;
@@ -41,8 +41,7 @@ fn alternatives(tables: &[AnswerTable]) -> Document {
     all.made = tables.iter().flat_map(|table| table.made.clone()).collect();
     for table in tables {
         for (answer, one) in all.rows.iter_mut().zip(partners(&table.rows, &tables[0].rows)) {
-            let p = one.map_or(Interval::default(), |one| table.rows[one].p.p_overturning);
-            answer.alternatives.push(Alternative { file: table.file(), p });
+            answer.alternatives.extend(one.map(|one| table.rows[one].clone()));
         }
     }
     let joined = AnswerTable { details: Vec::new(), ..AnswerTable::joined(tables) };
@@ -71,10 +70,7 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     let new = after.rows.iter().zip(&partners).filter(|(_, one)| one.is_none());
     let [gone, new] = [gone.map(|(_, one)| one).collect::<Vec<_>>(), new.map(|(one, _)| one).collect()];
     let unmatched = [("Removed", gone), ("Added", new)].into_iter().filter(|(_, only)| !only.is_empty());
-    let unmatched = unmatched.map(|(what, only)| {
-        let names: Vec<String> = only.iter().map(|one| one.object.called()).collect();
-        format!("{what}: {}.", listed(&names, NAMED))
-    });
+    let unmatched = unmatched.map(|(what, only)| format!("{what}: {}.", named(only, NAMED)));
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let shared = if is_same { "" } else { ", but for PGV/PGA, as the hazards differ" };
     let ratios = format!(
@@ -95,26 +91,24 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     })
 }
 
-/// What is the same of an object in both lists, if it tells.
-type Key<'a> = &'a dyn Fn(&Answer) -> Option<String>;
-
 /// For each row of the second list the same object of the first: by the tags of both, where they have such a
 /// column; else by a name that is no line of a list; else by the name without it and the size.
 fn partners(before: &[Answer], after: &[Answer]) -> Vec<Option<usize>> {
     let tag = tags(before).find(|heading| tags(after).any(|other| other == *heading));
-    let by_tag = |one: &Answer| Some(one.label(tag?)?.to_string());
-    let by_name = |one: &Answer| {
-        Some(one.object.structure.clone()).filter(|name| tag.is_none() && without_line(name) == name)
-    };
-    let by_size = |one: &Answer| {
-        tag.is_none().then(|| format!("{} {}", without_line(&one.object.structure), one.object.size()))
+    let key = |one: &Answer, with_size: bool| {
+        let name = without_line(&one.object.structure);
+        match tag {
+            Some(tag) => one.label(tag).map(str::to_string),
+            None if with_size => Some(format!("{name} {}", one.object.size())),
+            None => Some(name.to_string()).filter(|name| *name == one.object.structure),
+        }
     };
     let mut left: Vec<usize> = (0..before.len()).collect();
     let mut partners = vec![None; after.len()];
-    for key in [&by_tag as Key, &by_name, &by_size] {
+    for with_size in [false, true] {
         for (partner, answer) in partners.iter_mut().zip(after).filter(|(partner, _)| partner.is_none()) {
-            let wanted = key(answer);
-            let same = left.iter().position(|at| wanted.is_some() && key(&before[*at]) == wanted);
+            let wanted = key(answer, with_size);
+            let same = left.iter().position(|at| wanted.is_some() && key(&before[*at], with_size) == wanted);
             *partner = same.map(|same| left.remove(same));
         }
     }

@@ -7,7 +7,7 @@ use super::{Document, Table, Tile, object};
 use crate::answer::{Answer, AnswerTable, Before, Detail, StateColumns};
 use crate::chart::text::literal;
 use crate::figures::answers;
-use crate::figures::common::by;
+use crate::figures::common::{by, distinct};
 use crate::inputs::SECTION;
 use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, length, listed, plain};
 
@@ -112,16 +112,11 @@ fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Op
 /// What the worst objects come to with one thing changed, in percent.
 fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
     let worst = &table.details;
-    let mut heads = vec!["object".to_string(), "as it is".to_string()];
-    for change in worst.iter().flat_map(|detail| detail.remedies()) {
-        let words = change.variant.clone().unwrap_or_default();
-        if !heads.contains(&words) {
-            heads.push(words);
-        }
-    }
+    let changes = worst.iter().flat_map(Detail::remedies).filter_map(|change| change.variant.as_deref());
+    let heads = [vec!["object", "as it is"], distinct(changes)].concat();
     let row = |detail: &Detail| {
-        let of = |head: &String| {
-            let one = detail.variants.iter().find(|one| one.variant.as_ref() == Some(head));
+        let of = |head: &&str| {
+            let one = detail.variants.iter().find(|one| one.variant.as_deref() == Some(*head));
             one.map_or(String::new(), |one| OF_HUNDRED.value(one.p.p_overturning))
         };
         let name = detail.variants[0].object.called();
@@ -132,7 +127,7 @@ fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
         "The worst, if one thing is changed: probability of overturning {when}, %. Anchored, none rocks (forces \
          by ASCE 7 chapter 13 or EN 1998-1 4.3.5)"
     );
-    (!rows.is_empty()).then_some(Table { caption, heads, rows, ..Table::default() })
+    (!rows.is_empty()).then(|| Table::new(&heads, rows).explained(&caption))
 }
 
 /// The object that is the most likely to overturn, if one may.
@@ -160,9 +155,13 @@ fn file_of(answer: &Answer, table: &AnswerTable) -> String {
 /// The objects without an answer; the table says why.
 pub fn not_assessed(answers: &[Answer]) -> Option<String> {
     let silent: Vec<&Answer> = answers.iter().filter(|answer| !answer.is_answered()).collect();
-    let names: Vec<String> = silent.iter().map(|answer| answer.object.called()).collect();
-    let [some, all] = [pieces(silent), pieces(answers)].map(count);
-    (!names.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", listed(&names, NAMED)))
+    let [some, all] = [pieces(silent.iter().copied()), pieces(answers)].map(count);
+    (!silent.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", named(silent, NAMED)))
+}
+
+/// The names of objects, and how many there are beyond the most.
+pub fn named<'a>(answers: impl IntoIterator<Item = &'a Answer>, most: usize) -> String {
+    listed(&answers.into_iter().map(|answer| answer.object.called()).collect::<Vec<_>>(), most)
 }
 
 fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
@@ -242,11 +241,9 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let column = |cell: &dyn Fn(&Answer) -> String| answers.iter().map(|answer| cell(answer)).collect();
     let mut columns: Vec<(String, Vec<String>)> =
         vec![("object".to_string(), column(&|answer| answer.object.called()))];
-    for (heading, _) in answers.iter().flat_map(|answer| &answer.labels) {
-        let head = literal(heading);
-        if columns.iter().all(|(other, _)| *other != head) {
-            columns.push((head, column(&|answer| literal(answer.label(heading).unwrap_or_default()))));
-        }
+    for heading in headings(answers.iter().copied()) {
+        let label = |answer: &Answer| literal(answer.label(heading).unwrap_or_default());
+        columns.push((literal(heading), column(&label)));
     }
     let (labels, mut same) = (columns.len() - 1, Vec::new());
     let files = answers.first().map_or(0, |answer| answer.alternatives.len());
@@ -257,8 +254,8 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
         if files > 0 && *name == OVERTURNS {
             // A column and its limits for each file.
             for at in 0..files {
-                let file = &answers[0].alternatives[at].file;
-                let p = |answer: &Answer| answer.alternatives[at].p;
+                let file = literal(&answers[0].alternatives[at].file);
+                let p = |answer: &Answer| answer.alternatives[at].p.p_overturning;
                 columns.push((format!("{file}: {head}"), column(&|answer| OF_HUNDRED.value(p(answer)))));
                 columns.push((LIMITS.to_string(), column(&|answer| OF_HUNDRED.span(p(answer)))));
             }
@@ -275,6 +272,12 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let rows = (0..answers.len()).map(cells).collect();
     let heads = columns.iter().map(|(head, _)| head.clone()).collect();
     (Table { heads, rows, labels, ..Table::default() }, same)
+}
+
+/// Headings of the list's own columns.
+pub fn headings<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Vec<&'a str> {
+    let all = answers.into_iter().flat_map(|answer| &answer.labels).map(|(heading, _)| heading.as_str());
+    distinct(all.filter(|heading| *heading != "object"))
 }
 
 /// Where an object stands; nothing of one that is not assessed.
@@ -318,8 +321,7 @@ pub fn doubts(answers: &[&Answer]) -> Vec<String> {
         answers.iter().filter_map(|answer| Some((*answer, answer.uncertainty.warnings.as_deref()?)));
     let mut lines = Vec::new();
     for same in by(doubted, |(_, words)| words) {
-        let names: Vec<String> = same.iter().map(|(answer, _)| answer.object.called()).collect();
-        lines.push(format!("{}: {}", listed(&names, NAMED), literal(same[0].1)));
+        lines.push(format!("{}: {}", named(same.iter().map(|of| of.0), NAMED), literal(same[0].1)));
     }
     lines
 }

@@ -8,6 +8,7 @@ use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns, over_all};
+use crate::chart::text::literal;
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
@@ -77,13 +78,15 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
         let (name, p) = (answer.object.called(), answer.p.p_overturning);
         if !answer.alternatives.is_empty() {
             let of_files = answer.alternatives.iter().enumerate();
-            let values = of_files.map(|(at, one)| (one.p, Ink::Data(at), &*one.file)).collect();
+            let values = of_files.map(|(at, one)| (one.p.p_overturning, Ink::Data(at), literal(&one.file)));
+            let values = values.collect();
             return ProbabilityRow { name, values, words: String::new() };
         }
         let Some(before) = &answer.before else {
             return ProbabilityRow::new(&name, Ink::Step(band), bands[band], p);
         };
-        let values = vec![(before.p, Ink::Muted, "before"), (p, Ink::Data(1), "after")];
+        let values = [(before.p, Ink::Muted, "before"), (p, Ink::Data(1), "after")];
+        let values = values.map(|(p, ink, label)| (p, ink, label.to_string())).into();
         let words = before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()));
         ProbabilityRow { name, values, words }
     });
@@ -279,18 +282,19 @@ fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
 }
 
 /// A row of a panel of probabilities.
-struct ProbabilityRow<'a> {
+struct ProbabilityRow {
     name: String,
     /// One below the other, each in a colour that the legend names.
-    values: Vec<(Interval<Option<f64>>, Ink, &'a str)>,
+    values: Vec<(Interval<Option<f64>>, Ink, String)>,
     /// At the right edge.
     words: String,
 }
 
-impl<'a> ProbabilityRow<'a> {
+impl ProbabilityRow {
     /// A row of one probability, with its value at its end.
-    fn new(name: &str, ink: Ink, label: &'a str, p: Interval<Option<f64>>) -> ProbabilityRow<'a> {
-        ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words: PERCENT.value(p) }
+    fn new(name: &str, ink: Ink, label: &str, p: Interval<Option<f64>>) -> ProbabilityRow {
+        let values = vec![(p, ink, label.to_string())];
+        ProbabilityRow { name: name.to_string(), values, words: PERCENT.value(p) }
     }
 }
 

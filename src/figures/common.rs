@@ -151,6 +151,11 @@ pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn
     groups
 }
 
+/// Each row once.
+pub fn distinct<R: Copy + PartialEq>(rows: impl IntoIterator<Item = R>) -> Vec<R> {
+    by(rows, |row| row).into_iter().map(|same| same[0]).collect()
+}
+
 /// The cases that rocked, and whether they overturned.
 pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
     let overturned = |case: &Case| Event::Overturning.happened(case.outcome, f64::INFINITY);

@@ -98,7 +98,6 @@ pub fn small_run() -> tempfile::TempDir {
 /// The files of the small run.
 pub const FILES: [&str; 6] = ["scenarios", "motions", "responses", "pex", "pro", "paper"];
 
-/// A folder with this pipeline file.
 pub fn folder_with(pipeline: &str) -> tempfile::TempDir {
     folder(&[("pipeline.yaml", pipeline)])
 }
@@ -133,7 +132,6 @@ pub fn write_motions(path: &Path, dt_s: f64, motions: &[&[f64]]) {
     write(path, motions_of(Arc::new(Int64Array::from_iter_values(0..motions.len() as i64)), dt_s, motions));
 }
 
-/// The columns of a motions file.
 pub fn motions_of(ids: ArrayRef, dt_s: f64, motions: &[&[f64]]) -> Vec<(&'static str, ArrayRef)> {
     let dt = numbers(&vec![dt_s; motions.len()]);
     vec![("motion_id", ids), ("dt_s", dt), ("acceleration_m_s2", lists(motions))]
@@ -156,12 +154,10 @@ pub fn ran(stderr: &str) -> Vec<&str> {
     lines.filter_map(|line| line.split_whitespace().next()).collect()
 }
 
-/// What made a file.
 pub fn made(path: &Path) -> Provenance {
     Provenance::read(path).unwrap().unwrap()
 }
 
-/// The bytes of a file.
 pub fn bytes(path: &Path) -> Vec<u8> {
     std::fs::read(path).unwrap()
 }
