@@ -94,7 +94,6 @@ pub struct Before {
     pub p: Interval<Option<f64>>,
     /// The rate after over the rate before, with limits; none where one has no rate.
     pub ratio: Interval<Option<f64>>,
-    /// What differs, in words.
     pub changes: Vec<String>,
 }
 
@@ -386,7 +385,6 @@ impl AnswerTable {
     }
 }
 
-/// The file of the variants of a file of answers.
 pub fn variants_beside(path: &Path) -> PathBuf {
     path.with_extension("variants.parquet")
 }

@@ -31,7 +31,6 @@ pub struct ObjectColumns {
     pub floor_level: Option<f64>,
     /// The floor as the list of the object has it.
     pub floor: Option<String>,
-    /// Number of such objects.
     pub count: Option<f64>,
     pub p_rad_s: Option<f64>,
     pub alpha_rad: Option<f64>,
@@ -40,16 +39,13 @@ pub struct ObjectColumns {
     pub base: Option<Base>,
     /// Of an object on a pedestal: fixed, it is one body with it; else it is loose on it.
     pub is_fixed_to_pedestal: Option<bool>,
-    /// Rebound from a wall behind it.
     pub wall_rebound: Option<f64>,
     /// tan(alpha): with less friction it slides.
     pub friction: Option<f64>,
     /// Whether its friction was given, and is enough.
     pub is_friction_known: Option<bool>,
     pub model: Option<String>,
-    /// Kind of motion that the model is for.
     pub motions: Option<MotionKind>,
-    /// Responses that the model was fitted to.
     pub responses: Option<i64>,
     pub limit_state: Option<f64>,
 }
@@ -168,7 +164,6 @@ pub struct RateColumns {
     pub years: Option<f64>,
     /// The changes of [`RateColumns::budget`], as JSON.
     pub rate_changes: Option<String>,
-    /// Source of PGV / PGA.
     pub velocity_by: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of the hazard curve.
     pub share_extrapolated: Option<f64>,
@@ -262,7 +257,6 @@ pub struct UncertaintyColumns {
     pub error_object: Option<f64>,
     pub error_floor: Option<f64>,
     pub error_hazard: Option<f64>,
-    /// The largest source.
     pub error_largest: Option<UncertaintySource>,
 }
 

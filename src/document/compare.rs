@@ -12,7 +12,6 @@ use super::list::{named, not_assessed, pieces};
 use crate::answer::{Answer, AnswerTable, Before};
 use crate::number::{self, count, counted, significant};
 
-/// Objects that are named in a line.
 const NAMED: usize = 20;
 
 /// None where the tables are of other objects, or there is only one.

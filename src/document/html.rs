@@ -73,7 +73,6 @@ impl Document {
     }
 }
 
-/// Marked text.
 fn write(text: &str) -> Markup {
     PreEscaped(marked(text))
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::phrases::{assumptions, facts, intensity_cells};
 use super::{Document, Table, Tile, object};
-use crate::answer::{Answer, AnswerTable, Before, Detail, StateColumns};
+use crate::answer::{Answer, AnswerTable, Before, Detail};
 use crate::chart::text::literal;
 use crate::figures::answers;
 use crate::figures::common::{by, distinct};
@@ -33,13 +33,10 @@ pub fn document(table: &AnswerTable) -> Document {
         let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![rows], ..Document::default() };
     }
-    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.is_upstairs()));
+    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.floor_level.is_some()));
     let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
-    let kinds = if all > table.rows.len() {
-        format!(" in {}", counted(table.rows.len(), "row"))
-    } else {
-        String::new()
-    };
+    let kinds = Some(table.rows.len()).filter(|rows| *rows < all);
+    let kinds = kinds.map_or(String::new(), |rows| format!(" in {}", counted(rows, "row")));
     let place = format!("{free} of {}{kinds} assessed ({upstairs} above the ground)", count(all));
     let whose = format!(" of {}", worst.object.called());
     let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
@@ -98,10 +95,10 @@ fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Op
     groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
     let target = answers[0].rates.target;
     let row = |group: &Vec<&Answer>| {
-        let above =
-            group.iter().copied().filter(|answer| target.is_some_and(|most| answer.severity() > most));
-        let above = target.map_or(String::new(), |_| count(pieces(above)));
-        vec![place(group[0]), count(pieces(group.iter().copied())), above, TWO_DIGITS.one(number_of(group))]
+        let its = || group.iter().copied();
+        let above = |most: f64| count(pieces(its().filter(|answer| answer.severity() > most)));
+        let above = target.map_or(String::new(), above);
+        vec![place(group[0]), count(pieces(its())), above, TWO_DIGITS.one(number_of(group))]
     };
     let above = target.map_or(String::new(), |target| format!("above {}", PERCENT.one(target)));
     let heads = [head, "objects", &above, "expected to overturn"];
@@ -130,7 +127,6 @@ fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
     (!rows.is_empty()).then(|| Table::new(&heads, rows).explained(&caption))
 }
 
-/// The object that is the most likely to overturn, if one may.
 fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
@@ -146,7 +142,6 @@ fn worst_of(table: &AnswerTable) -> String {
     }
 }
 
-/// The file of an answer, where there are several.
 fn file_of(answer: &Answer, table: &AnswerTable) -> String {
     let several = table.rows.iter().any(|other| other.file != answer.file);
     if several { format!(" ({})", literal(&answer.file)) } else { String::new() }
@@ -173,7 +168,8 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
         let words = format!("of {all} expected to overturn {when}{limits}{file}");
-        tiles.push(Tile::new(expected_of_list(answers), words));
+        let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
+        tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
@@ -191,18 +187,11 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     tiles
 }
 
-/// How many of the objects of a list are to be expected to overturn.
-pub fn expected_of_list(rows: &[&Answer]) -> String {
-    let of_list = rows.first().and_then(|answer| answer.list.expected_number.value);
-    TWO_DIGITS.one(of_list.unwrap_or_else(|| number_of(rows)))
-}
-
 fn number_of(some: &[&Answer]) -> f64 {
     let number = |answer: &&Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
     some.iter().filter_map(number).sum()
 }
 
-/// What stands in a cell of an answer.
 type Cell = fn(&Answer) -> String;
 
 /// The columns behind the list's own; of those in the time of exposure there is an @.
@@ -285,12 +274,6 @@ pub fn place(answer: &Answer) -> String {
     if answer.is_answered() { answer.object.short_place() } else { String::new() }
 }
 
-/// A cell of the probabilities of an object that has them.
-fn of_states(answer: &Answer, cell: fn(&StateColumns) -> String) -> String {
-    let has_them = answer.is_answered() && answer.fragility.over.is_none();
-    if has_them { cell(&answer.p) } else { String::new() }
-}
-
 fn of_before(answer: &Answer, cell: fn(&Before) -> String) -> String {
     answer.before.as_deref().map_or(String::new(), cell)
 }
@@ -301,7 +284,7 @@ fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
 }
 
 fn limits(answer: &Answer) -> String {
-    of_fragility(answer, 1) + &of_states(answer, |p| OF_HUNDRED.span(p.p_overturning))
+    of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)
 }
 
 /// The base with which an object meets the target, if there is one.

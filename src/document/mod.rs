@@ -98,7 +98,6 @@ pub struct Table {
     pub labels: usize,
 }
 
-/// A column of a table that is shown.
 #[derive(Clone)]
 struct Column<'a> {
     head: &'a str,
@@ -148,7 +147,6 @@ fn is_number(cell: &str) -> bool {
 }
 
 impl Document {
-    /// The document of answers: of one object or of several.
     pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
@@ -164,7 +162,6 @@ impl Document {
         document
     }
 
-    /// With a title, author, date and project of its own.
     pub fn signed(self, by: &PageArgs) -> Document {
         let PageArgs { title, author, date, project } = by;
         let byline = [project, author, date].into_iter().flatten().map(|text| literal(text));

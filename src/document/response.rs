@@ -61,7 +61,6 @@ impl Trace {
         self.overturned_at().and(self.0.get(stood + 1)).map(|point| point.time_s)
     }
 
-    /// What came of it, in a sentence.
     fn sentence(&self) -> String {
         let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
         let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
@@ -144,7 +143,6 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     ))
 }
 
-/// The figures of responses.
 pub fn figures(all: &[Trace]) -> Vec<Figure> {
     all.iter().enumerate().map(|(id, response)| figure(response, id)).collect()
 }

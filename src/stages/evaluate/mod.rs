@@ -185,8 +185,10 @@ impl Stage for Evaluate {
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
             let most = if self.variants || is_page { WORST } else { 0 };
-            let worst = worst(&table.rows, &objects, most).collect::<Vec<_>>();
-            let details = worst.par_iter().map(|object| Detail::new(object, site, *years, &models_of));
+            let mut worst: Vec<(&Answer, &Object)> = table.rows.iter().zip(&objects).collect();
+            worst.sort_by(|(a, _), (b, _)| b.severity().total_cmp(&a.severity()));
+            worst.truncate(most);
+            let details = worst.par_iter().map(|(_, object)| Detail::new(object, site, *years, &models_of));
             table.details = details.filter(|detail| !detail.variants.is_empty()).collect();
             table.hazard = Some(site.hazard.clone());
         }
@@ -212,7 +214,6 @@ impl Stage for Evaluate {
 const WORST: usize = 10;
 
 impl Evaluate {
-    /// The motion that is given.
     fn motion(&self) -> anyhow::Result<GroundMotion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
         if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
@@ -224,7 +225,6 @@ impl Evaluate {
         Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
-    /// What is asked of the objects.
     fn question(&self, reader: &mut Reader, models: &Models) -> anyhow::Result<Question> {
         if self.pga.or(self.pgv).is_some() {
             let motion = self.motion()?;
@@ -234,7 +234,7 @@ impl Evaluate {
             return Ok(Question::Motion(motion));
         }
         models.expect_ground()?;
-        let site = if self.hazard.is_empty() { None } else { Some(self.site(reader)?) };
+        let site = (!self.hazard.is_empty()).then(|| self.site(reader)).transpose()?;
         let over = self.over.unwrap_or(Peak::Pgv);
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
@@ -326,13 +326,6 @@ fn parse_target(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The objects that are the most likely to overturn, at most so many.
-fn worst<'a>(answers: &[Answer], objects: &'a [Object], most: usize) -> impl Iterator<Item = &'a Object> {
-    let mut places: Vec<usize> = (0..answers.len()).collect();
-    places.sort_by(|a, b| answers[*b].severity().total_cmp(&answers[*a].severity()));
-    places.into_iter().take(most).map(|place| &objects[place])
-}
-
 /// Warns of what the text of the answers does not state.
 fn warn(answers: &[Answer], context: &Context) {
     // The text states them, or a warning of the file that is read.
@@ -343,7 +336,6 @@ fn warn(answers: &[Answer], context: &Context) {
     }
 }
 
-/// Rows of one schema as a frame.
 fn framed(rows: &[RecordBatch]) -> anyhow::Result<DataFrame> {
     let mut whole = DataFrame::default();
     for rows in rows {

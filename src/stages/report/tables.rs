@@ -77,7 +77,6 @@ pub enum Kind {
     Other,
 }
 
-/// A table that is read.
 pub struct Item {
     pub path: PathBuf,
     pub kind: Kind,
@@ -233,13 +232,11 @@ impl Tables {
         self.items.iter().filter(move |item| item.kind == kind)
     }
 
-    /// The rows of all tables of a kind.
     pub fn rows<R: Row>(&self, kind: Kind) -> Result<Vec<R>, TableError> {
         let tables = self.of(kind).map(|item| rows::read(&item.path)).collect::<Result<Vec<_>, _>>()?;
         Ok(tables.into_iter().flatten().collect())
     }
 
-    /// What made each table that is ours.
     pub fn made(&self) -> impl Iterator<Item = &Provenance> {
         self.items.iter().filter_map(|item| item.made.as_ref())
     }
