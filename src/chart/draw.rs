@@ -41,7 +41,6 @@ const SPREAD: f64 = 0.64;
 
 /// The fonts of a file: the first that its reader has.
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
-/// Dots per inch of PNG files.
 pub const DPI: f32 = 300.0;
 
 /// Writes a figure as an SVG file on white.
@@ -159,7 +158,6 @@ impl Panel {
 }
 
 impl Picture {
-    /// Draws the legend of panels in lines.
     fn legend(&mut self, panels: &[Panel]) {
         let (mut x, mut y) = (BEFORE, self.height + 11.0);
         for Layer { name, ink, style, marks, .. } in listed(panels) {

@@ -141,7 +141,6 @@ pub enum Ink {
     Muted,
     /// Guides, behind data.
     Rule,
-    /// Data, by number.
     Data(usize),
     /// A step from cold to hot: 0, 1 or 2.
     Step(usize),
@@ -158,7 +157,6 @@ pub enum Dash {
 
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
-/// Columns of the table of a figure.
 const COLUMNS: &str = "panel,series,layer,x_is,x,y_is,y,row,low,high,n,\
                        panel_number,layer_number,x_scale,y_scale,style,form,colour";
 

@@ -26,7 +26,7 @@ const CURVES: usize = 6;
 pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> Figure {
     let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
     let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
-    panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, &answer.object, drawn)));
+    panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, answer, drawn)));
     if variants.len() > 1 {
         panels.push(variants_panel(variants, answer));
     }
@@ -42,8 +42,8 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
 /// figure for each peak.
 pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
     if let [answer] = answers {
-        let curves = over_all([*answer])
-            .filter_map(|one| Some(fragility_panel(one.fragility.over?, &one.points, &answer.object, None)));
+        let curve = |one: &Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
+        let curves = over_all([*answer]).filter_map(curve);
         let panels = sketch(&answer.object).into_iter().chain(curves).collect();
         return vec![Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels)];
     }
@@ -170,15 +170,10 @@ fn curves_panel(title: &str, over: Peak, layers: Vec<Layer>) -> Panel {
 }
 
 /// The limit states of one object, with the usual intensities of a site.
-fn fragility_panel(
-    over: Peak,
-    points: &[FragilityPoint],
-    object: &ObjectColumns,
-    drawn: Option<&AtSite>,
-) -> Panel {
-    let too_far = object.too_far().replace("its slenderness", "*α*");
-    let failure = curve(over, points, LimitState::Failure, false);
-    let overturning = curve(over, points, LimitState::Overturning, true);
+fn fragility_panel(over: Peak, points: &[FragilityPoint], of: &Answer, drawn: Option<&AtSite>) -> Panel {
+    let too_far = of.object.too_far().replace("its slenderness", "*α*");
+    let [failure, overturning] = [(LimitState::Failure, false), (LimitState::Overturning, true)]
+        .map(|(state, has_limits)| curve(over, points, state, has_limits));
     let layers = vec![
         Layer::line(&too_far, Ink::Data(0), failure),
         Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
@@ -275,13 +270,11 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
 
-/// Words at the right edge of each row.
 fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
     let place = |(row, text)| Words { x: 0.0, y: row, text, position: LabelPosition::Margin, ink: Ink::Text };
     (0_i32..).map(f64::from).zip(texts).map(place).collect()
 }
 
-/// A row of a panel of probabilities.
 struct ProbabilityRow {
     name: String,
     /// One below the other, each in a colour that the legend names.

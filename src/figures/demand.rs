@@ -186,7 +186,6 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         .explained(compare(&caption, "Figure 7"))
 }
 
-/// What a caption says of rotations below those of the fits.
 fn of_floor(fits: &Fits) -> String {
     let floor = number::significant(fits.rotation_floor, 1);
     format!("Rotations are {floor} rad or more (thin line), as in the fits.")
@@ -222,7 +221,6 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     Figure::new("quality", "Quality of the measures", 2, 0.0, panels).explained(compare(caption, "Figure 8"))
 }
 
-/// The row of a regression.
 fn row(fit: &DemandFit) -> String {
     match (fit.range_low, fit.range_high) {
         (None, None) => short_labels(&fit.predictors()),

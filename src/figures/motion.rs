@@ -54,7 +54,6 @@ fn is_of(motion: &MotionRow, suite: Suite) -> bool {
     motion.suite.as_deref() == Some(suite.into())
 }
 
-/// The pulse of a combined motion.
 fn pulse<'a>(whole: &MotionRow, motions: &'a [MotionRow]) -> Option<&'a MotionRow> {
     motions.iter().find(|other| {
         let is_same = (other.mw, other.re_km, other.tp_s) == (whole.mw, whole.re_km, whole.tp_s);
@@ -109,7 +108,6 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     Some(figure.explained(compare(&caption, "Figure 5")))
 }
 
-/// The demand of a motion in safe rocking.
 fn safe_demand(structure: &Structure, motion: &MotionRow) -> Option<f64> {
     let record = Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?;
     simulate(structure, &record).outcome.demand().filter(|demand| *demand > 0.0)

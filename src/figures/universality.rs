@@ -15,7 +15,6 @@ const STEPS: usize = 60;
 /// Slenderness (rad) at which the colour changes.
 const SLENDERNESS: [f64; 2] = [0.15, 0.3];
 
-/// The measure of a case.
 type Over = fn(&Case) -> Option<f64>;
 
 /// A lognormal curve (Eq. 20) over some measure, and the range of its cases.

@@ -271,8 +271,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 /// What came of each structure under each motion, a table for each file of few motions.
 fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let structures = by(&tables.groups, |cases| &cases.structure.name);
-    let mut heads = ["motion", "PGA, g", "PGV, m/s"].map(str::to_string).to_vec();
-    heads.extend(structures.iter().map(|its| called(&its[0].structure)));
+    let names: Vec<String> = structures.iter().map(|its| called(&its[0].structure)).collect();
+    let heads = ["motion", "PGA, g", "PGV, m/s"].into_iter().chain(names.iter().map(String::as_str));
+    let heads: Vec<&str> = heads.collect();
     let mut all = Vec::new();
     let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_MOTIONS * MOST_STRUCTURES;
     for item in tables.of(Kind::Responses).filter(is_short) {
@@ -294,9 +295,8 @@ fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             }));
             row
         };
-        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*".to_string();
-        let (heads, rows) = (heads.clone(), motions.iter().map(line).collect());
-        all.push(Table { caption, heads, rows, ..Table::default() });
+        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*";
+        all.push(Table::new(&heads, motions.iter().map(line).collect()).explained(caption));
     }
     Ok(all)
 }
@@ -354,26 +354,23 @@ fn claims(tables: &Tables) -> Vec<Table> {
         };
         format!("{mean} ({low} to {high}){mark}")
     };
+    let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
     let of_claim = |rows: Vec<&Claim>| {
-        let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
-        let columns = by(rows.iter().copied(), column).into_iter().map(|its| column(its[0]));
-        let heads: Vec<String> =
-            ["number", "claimed"].map(str::to_string).into_iter().chain(columns).collect();
+        let columns: Vec<String> =
+            by(rows.iter().copied(), column).iter().map(|its| column(its[0])).collect();
         let line = |its: Vec<&Claim>| {
-            let cells = heads[2..].iter().map(|head| {
-                let its_row = its.iter().copied().find(|row| column(row) == *head);
-                its_row.map_or(String::new(), shown)
-            });
+            let of = |head: &String| its.iter().find(|row| column(row) == *head).map(|row| shown(row));
             let claimed = its.iter().map(|row| row.claimed.as_str()).max().unwrap_or_default();
+            let cells = columns.iter().map(|head| of(head).unwrap_or_default());
             [&its[0].quantity, claimed].map(literal).into_iter().chain(cells).collect()
         };
         let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
         let Claim { claim, verdict, figure, .. } = rows[0];
-        let caption = format!(
+        let heads = ["number", "claimed"].into_iter().chain(columns.iter().map(String::as_str));
+        Table::new(&heads.collect::<Vec<_>>(), lines).explained(&format!(
             "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more seed; \
              by those of the mean, ? is undecided and \u{2717} against the claim."
-        );
-        Table { caption, heads, rows: lines, ..Table::default() }
+        ))
     };
     by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
 }
