@@ -241,8 +241,8 @@ impl Answer {
         self.before.as_deref().is_none_or(is_new)
     }
 
-    /// By what answers are sorted, the worst first: the probability of overturning, where there is no value
-    /// its upper end; else the inverse of the intensity that overturns it under half of the motions.
+    /// What sorts answers, the worst first: the probability of overturning, else its upper end, else the
+    /// inverse of the intensity that overturns it under half of the motions.
     pub fn severity(&self) -> f64 {
         let p = self.p.p_overturning;
         let fragility = &self.fragility;

@@ -88,8 +88,7 @@ fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
     Some(document)
 }
 
-/// How many objects of each place are above the target, and are to be expected to overturn; none of a single
-/// place.
+/// How many objects of each of several places are above the target, and are expected to overturn.
 fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
     let mut groups = by(answers.iter().copied(), place);
     groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
@@ -205,7 +204,7 @@ const COLUMNS: [(&str, Cell); 20] = [
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
     (OVERTURNS, |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
-    (LIMITS, limits),
+    (LIMITS, |answer| of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)),
     ("times as often", |answer| of_before(answer, Before::times)),
     ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
@@ -251,9 +250,8 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
         } else if (differ.len() > 1 || ALWAYS.contains(name)) && (files == 0 || *name != LIMITS) {
             columns.push((head, column(cell)));
         } else if !UNSAID.contains(name) {
-            same.extend(
-                differ.first().filter(|value| !value.is_empty()).map(|value| format!("{head} {value}")),
-            );
+            let value = differ.first().filter(|value| !value.is_empty());
+            same.extend(value.map(|value| format!("{head} {value}")));
         }
     }
     let same = (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", ")));
@@ -283,18 +281,12 @@ fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
     fragility.over.map_or(String::new(), |over| intensity_cells(over, &fragility.overturning)[cell].clone())
 }
 
-fn limits(answer: &Answer) -> String {
-    of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)
-}
-
 /// The base with which an object meets the target, if there is one.
 pub fn base(answer: &Answer) -> String {
     match answer.rates.target.filter(|_| answer.is_answered()) {
         None => String::new(),
         Some(target) if answer.severity() <= target => "not needed".to_string(),
-        Some(_) => {
-            answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}"))
-        }
+        _ => answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}")),
     }
 }
 
@@ -302,9 +294,8 @@ pub fn base(answer: &Answer) -> String {
 pub fn doubts(answers: &[&Answer]) -> Vec<String> {
     let doubted =
         answers.iter().filter_map(|answer| Some((*answer, answer.uncertainty.warnings.as_deref()?)));
-    let mut lines = Vec::new();
-    for same in by(doubted, |(_, words)| words) {
-        lines.push(format!("{}: {}", named(same.iter().map(|of| of.0), NAMED), literal(same[0].1)));
-    }
-    lines
+    let line = |same: &Vec<(&Answer, &str)>| {
+        format!("{}: {}", named(same.iter().map(|of| of.0), NAMED), literal(same[0].1))
+    };
+    by(doubted, |(_, words)| words).iter().map(line).collect()
 }

@@ -289,8 +289,7 @@ impl Evaluate {
         if self.format == Format::Text { Ok(text) } else { frame::show(&framed(rows)?, self.format) }
     }
 
-    /// Writes rows of one schema, the sheet, a page or the main figure of them, by how the name of the file
-    /// ends.
+    /// Writes rows, the sheet, a page or its main figure, by how the name of the file ends.
     fn write(
         &self,
         rows: &[RecordBatch],

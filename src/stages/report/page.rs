@@ -29,8 +29,7 @@ const MOST_MOTIONS: usize = 30;
 const MOST_STRUCTURES: usize = 8;
 /// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
-/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
-/// of a list there are only these.
+/// Figures that are seen on the page of a list, which has no others, of the paper and of other responses.
 const OF_RATES: &[&str] = &["map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["hybrid", "demand", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "universality", "map", "overturning", "validation"];
@@ -138,8 +137,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// The figure of all groups; if it would have more panels than four, or more groups than colours, one a
-/// structure.
+/// The figure of all groups; one a structure, where it would have too many panels or colours.
 fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Figure> {
     let whole = draw(groups);
     if whole.panels.len() <= MOST_PANELS && groups.len() <= MOST_COLOURS {
@@ -156,8 +154,7 @@ fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Fi
         .collect()
 }
 
-/// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
-/// of responses.
+/// The head of the page: of the evaluations, else of the paper, of responses over time or of responses.
 fn head(tables: &Tables) -> Document {
     let Tables { answers, compared, traces, groups, .. } = tables;
     let compared_answers = if tables.are_files { compare::document(answers) } else { None };
@@ -237,8 +234,7 @@ fn overturned(groups: &[Cases]) -> Option<String> {
     (!sentences.is_empty()).then(|| sentences.join("; ") + ".")
 }
 
-/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
-/// paper's curve.
+/// What came of each structure and suite, and its median by its capacities, else by the paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows(Kind::CapacityFits)?;
     let median = match capacities.first() {

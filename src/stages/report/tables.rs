@@ -128,8 +128,7 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed
-    /// over.
+    /// Reads files, and of folders what is a table.
     pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
         let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
         for path in paths {
@@ -181,8 +180,7 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Columns of the motions of responses, where these are there: the velocity of the pulse, and measures of
-    /// curves.
+    /// Columns of the motions of responses: the velocity of the pulse, and measures of curves.
     fn columns(&self, responses: &Item) -> anyhow::Result<MotionColumns> {
         let motions = self.of(Kind::Motions).find(|item| responses.input("in").as_ref() == Some(&item.key));
         let Some(motions) = motions else { return Ok(MotionColumns::default()) };
