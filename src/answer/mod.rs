@@ -335,7 +335,7 @@ pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
 
 impl AnswerTable {
     /// Reads the answers of a file, and the variants beside it.
-    pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
+    pub fn read(path: &Path, made: Option<&Provenance>) -> Result<AnswerTable, TableError> {
         let (file, mut rows) = (path.file_name().unwrap_or_default().to_string_lossy(), Vec::new());
         for batch in ParquetTable::open(path)?.batches(|_| true) {
             let batch = batch?;
@@ -344,7 +344,7 @@ impl AnswerTable {
                 add(&mut rows, Answer { labels, file: file.to_string(), ..answer }, &point);
             }
         }
-        let beside = variants_beside(path);
+        let (beside, made) = (variants_beside(path), made.cloned().unwrap_or_default());
         let variants: Vec<Answer> = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
         let of_objects = variants.chunk_by(|a, b| a.object.structure == b.object.structure);
         let details = of_objects.map(|its| Detail { variants: its.to_vec(), ..Detail::default() }).collect();

@@ -157,8 +157,7 @@ fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Fi
 /// The head of the page: of the evaluations, else of the paper, of responses over time or of responses.
 fn head(tables: &Tables) -> Document {
     let Tables { answers, compared, traces, groups, .. } = tables;
-    let compared_answers = if tables.are_files { compare::document(answers) } else { None };
-    let mut head = match compared_answers {
+    let mut head = match tables.are_files.then(|| compare::document(answers)).flatten() {
         Some(document) => document,
         None if !answers.is_empty() => Document::of_answers(&AnswerTable::joined(answers)),
         None if !compared.is_empty() => Document {
@@ -174,10 +173,7 @@ fn head(tables: &Tables) -> Document {
         },
         None if !traces.is_empty() => return response::document(traces),
         None => Document {
-            title: match groups.is_empty() {
-                true => "Fits and motions".to_string(),
-                false => "What rocks and what overturns".to_string(),
-            },
+            title: groups.first().map_or("Fits and motions", |_| "What rocks and what overturns").to_string(),
             lead: overturned(groups).into_iter().collect(),
             facts: groups.first().map(|_| ANGLES.to_string()).into_iter().collect(),
             ..Document::default()
@@ -230,8 +226,8 @@ fn overturned(groups: &[Cases]) -> Option<String> {
         let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
         format!("{events} of {all} motions overturn {}", name(cases))
     };
-    let sentences: Vec<String> = groups.iter().take(MOST_NAMED).map(sentence).collect();
-    (!sentences.is_empty()).then(|| sentences.join("; ") + ".")
+    let sentences = groups.iter().take(MOST_NAMED).map(sentence).reduce(|all, one| all + "; " + &one);
+    sentences.map(|all| all + ".")
 }
 
 /// What came of each structure and suite, and its median by its capacities, else by the paper's curve.
