@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandFit, DemandModel, Group, Measure, PLANE, ln_median_demand,
+    Case, Cases, CurveFit, DemandFit, DemandModel, Group, Measure, PLANE, ln_median_demand,
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label, short_labels};
+use super::common::{DEMAND, Fits, by, compare, demands, estimate, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
 use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number::{self, PERCENT};
@@ -53,11 +53,10 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     let c = Interval { value, low, high };
     let pulses = groups.iter().filter(|cases| cases.all.iter().any(|case| case.measures.im1.is_some()));
     let planes = pulses.clone().map(|cases| outcomes(cases, c));
-    let over_velocity = groups
-        .iter()
-        .map(|cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0)));
+    let of_velocity =
+        |cases: &&Cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0));
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
-    let panels: Vec<Panel> = planes.chain(over_velocity).chain(over_period).collect();
+    let panels: Vec<Panel> = planes.chain(groups.iter().map(of_velocity)).chain(over_period).collect();
     let mut caption = format!(
         "Outcomes over velocity and period of the pulse, and demand over each, from {LEAST} on; in strips \
          below and above, motions that do not rock the structure and that overturn it."
@@ -105,11 +104,8 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
         };
         let [below, above] = [true, false].map(at_rest);
         caption += &format!(" Of those below the line {below} do not rock it, of those above {above}.");
-        let line = [periods.low, periods.high].map(|x| Mark {
-            low: limit(x, c.high),
-            high: limit(x, c.low),
-            ..Mark::new(x, limit(x, c.value))
-        });
+        let limits = |x| Interval { value: limit(x, c.value), low: limit(x, c.high), high: limit(x, c.low) };
+        let line = [periods.low, periods.high].map(|x| estimate(x, limits(x)));
         layers.push(Layer::line("Eq. 5 for the pulse alone, 90 % of pulses", Ink::Text, line));
     }
     let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
@@ -133,12 +129,9 @@ fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> 
         (&layers[2], last, fallen_words * most, LabelPosition::Left),
     ];
     let words = words.into_iter().filter(|(layer, ..)| !layer.marks.is_empty());
-    let words = words.map(|(layer, x, y, position)| Words {
-        x,
-        y,
-        text: layer.name.clone(),
-        position,
-        ink: layer.ink,
+    let words = words.map(|(layer, x, y, position)| {
+        let (text, ink) = (layer.name.clone(), layer.ink);
+        Words { x, y, text, position, ink }
     });
     let (words, title) = (words.collect(), format!("{}, over {}", name(cases), symbol));
     let y = Axis::log(DEMAND).over(0.11 * LEAST, 1.5 * fallen_words * most);
@@ -195,25 +188,20 @@ fn of_floor(fits: &Fits) -> String {
 /// overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let laws = fits.demand.iter().filter(|fit| fit.r2.is_some());
-    let rows = |value: fn(&DemandFit) -> Option<f64>| {
-        let all = laws.clone().map(|fit| (fit.group(), row(fit), value(fit)));
-        all.collect::<Vec<Quality>>()
+    let rows = |value: fn(&DemandFit) -> Option<f64>| -> Vec<Quality> {
+        laws.clone().map(|fit| (fit.group(), row(fit), value(fit))).collect()
     };
     let from_zero = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
         let most = laws.clone().filter_map(value).fold(0.0, f64::max);
         dots(rows(value), Axis::linear(label).over(-0.03 * most, 1.08 * most), groups)
     };
-    let scores = fits.curves.iter();
-    let scores = scores.map(|fit| (fit.group(), short_labels(&fit.predictors()), fit.held_out_log_score));
+    let scored = |fit| (CurveFit::group(fit), short_labels(&fit.predictors()), fit.held_out_log_score);
+    let scores = Axis::linear("log score of overturning on held-out cases (more is better)");
     let panels = [
         from_zero(|fit| fit.r2, "*R*^{2} (more is better)"),
         from_zero(|fit| fit.beta, "*β* (less is better)"),
         dots(rows(zeta), Axis::log("|*ζ*| = *β* / |*b*| (less is better)"), groups),
-        dots(
-            scores.collect(),
-            Axis::linear("log score of overturning on held-out cases (more is better)"),
-            groups,
-        ),
+        dots(fits.curves.iter().map(scored).collect(), scores, groups),
     ];
     let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit. Of \
                    two measures, *b* is that of IM4; of two planes, *R*^{2} is about the own side's mean.";

@@ -5,6 +5,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use anyhow::{bail, ensure};
 use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
@@ -179,7 +180,13 @@ impl Stage for Evaluate {
         context.tell(reader.warnings, reader.readings);
         let models_of = |object: &Object| models.rocking_object(object);
         let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
-        warn(&rows, context);
+        // The text states these, or a warning of the file that is read.
+        let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
+        for answer in answer::over_all(&rows) {
+            let warnings =
+                answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
+            context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
+        }
         let all = answer::table(&rows, &question)?;
         let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
@@ -217,9 +224,8 @@ impl Evaluate {
     fn motion(&self) -> anyhow::Result<GroundMotion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
         if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
-            if self.vs30.is_some() {
-                return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
-            }
+            let problem = "vs30 only estimates a missing peak; both are given";
+            ensure!(self.vs30.is_none(), UsageError::because(problem));
             Peaks { pga_m_s2, pgv_m_s }.validate().map_err(UsageError::because)?;
         }
         Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
@@ -253,13 +259,13 @@ impl Evaluate {
     fn site(&self, reader: &mut Reader) -> anyhow::Result<Site> {
         let mut hazard = hazard::read(&self.hazard, reader, self.reading.effective_years)?;
         match &mut hazard {
-            Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
-                *pgv_pga = self.ratio.map(PgvPgaRatio::given);
+            Hazard::Curve(PeakHazard { pgv_pga: known @ None, .. }) => {
+                *known = self.ratio.map(PgvPgaRatio::given)
             }
-            _ if self.ratio.or(self.vs30).is_some() => {
-                return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
+            _ => {
+                let problem = "ratio, vs30: the hazard itself gives PGV/PGA";
+                ensure!(self.ratio.or(self.vs30).is_none(), UsageError::because(problem));
             }
-            _ => {}
         }
         Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
@@ -273,13 +279,11 @@ impl Evaluate {
         }
         let objects = self.structures.objects(&self.place, reader)?;
         reader.expect_used()?;
-        let are_all = objects.iter().all(Object::is_implausible);
-        match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {
-            (Some(reason), Some(path)) if are_all => {
-                let reason = named(&objects[0], &reason);
-                anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
-            }
-            (Some(reason), None) if are_all => Err(named(&objects[0], &reason)),
+        let first = objects.first().filter(|_| objects.iter().all(Object::is_implausible));
+        match (first.and_then(|first| Some(named(first, &first.sides().err()?))), &self.structures.structures)
+        {
+            (Some(why), Some(path)) => bail!("{}: {why}; every other row has a fault too", path.display()),
+            (Some(why), None) => Err(why),
             _ => Ok(objects),
         }
     }
@@ -322,16 +326,6 @@ fn parse_target(text: &str) -> Result<f64, String> {
     match text.strip_suffix('%').map(|percent| percent.trim_end().parse::<f64>()) {
         Some(Ok(percent)) if percent > 0.0 && percent < 100.0 => Ok(0.01 * percent),
         _ => Err("expected a probability in --years with its percent sign, such as 1%".to_string()),
-    }
-}
-
-/// Warns of what the text of the answers does not state.
-fn warn(answers: &[Answer], context: &Context) {
-    // The text states them, or a warning of the file that is read.
-    let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
-    for answer in answer::over_all(answers) {
-        let warnings = answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
-        context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
@@ -48,16 +48,13 @@ pub fn evaluate(
         }
     };
     let given = if structures.is_given() { structures.objects(&place, reader)? } else { Vec::new() };
-    let problem =
-        "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
-    ensure!(given.len() < 2, UsageError::because(problem));
+    let one = "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
+    ensure!(given.len() < 2, UsageError::because(one));
     let columns = batches.first().map(|batch| batch.rows.schema());
     let column = columns.and_then(|all| STRUCTURE.into_iter().find(|name| all.index_of(name).is_ok()));
-    if let Some(column) = column.filter(|_| !given.is_empty()) {
-        let path = path.display();
-        return Err(UsageError::because(format!(
-            "{path}: column {column} and options of a structure; leave out the one or the other"
-        )));
+    if let (Some(column), Some(_)) = (column, given.first()) {
+        let both = format!("column {column} and options of a structure; leave out the one or the other");
+        bail!(UsageError::because(format!("{}: {both}", path.display())));
     }
     let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
