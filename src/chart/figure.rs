@@ -269,11 +269,11 @@ impl Panel {
         self.layers.iter().filter(|layer| !layer.marks.is_empty())
     }
 
-    /// Adds words, and a vertical line from a height to them.
-    pub fn add_upright(&mut self, words: Words, from: f64) {
-        let line = [from, words.y].map(|y| Mark::new(words.x, y));
-        self.layers.push(Layer::guide(&words.text, words.ink, line));
-        self.words.push(words);
+    /// Adds a vertical line from a height to another, where its words stand.
+    pub fn add_upright(&mut self, x: f64, [from, y]: [f64; 2], text: String, position: LabelPosition) {
+        let line = [from, y].map(|y| Mark::new(x, y));
+        self.layers.push(Layer::guide(&text, Ink::Muted, line));
+        self.words.push(Words { x, y, text, position, ink: Ink::Muted });
     }
 }
 

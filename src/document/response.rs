@@ -7,7 +7,7 @@ use rockfrag_core::units::G_M_S2;
 use super::Document;
 use crate::chart::round;
 use crate::chart::text::{escape, file_words, literal, words};
-use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol};
 use crate::figures::common::called;
 use crate::figures::envelope;
 use crate::number;
@@ -121,8 +121,7 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     ];
     for (moment, words) in [(response.tipped_at(), "tips"), (response.overturned_at(), "lies")] {
         let Some(x) = moment else { continue };
-        let (text, position) = (words.to_string(), LabelPosition::Along);
-        panels[0].add_upright(Words { x, y: most, text, position, ink: Ink::Muted }, -most);
+        panels[0].add_upright(x, [-most, most], words.to_string(), LabelPosition::Along);
     }
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
