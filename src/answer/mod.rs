@@ -45,11 +45,9 @@ pub use row::{
 pub enum Question {
     /// What comes of it under one motion.
     Motion(GroundMotion),
-    /// How often it rocks and overturns at a site, and in so many years; with a base for which the
-    /// probability of overturning is a target.
+    /// How often it rocks and overturns at a site, and in so many years; with a base for a target.
     Hazard { site: Site, years: f64, target: Option<f64> },
-    /// What share of the motions of each intensity has the effect: at the site of a hazard curve, or in
-    /// general; and the same over the peak `beside`.
+    /// The shares of the motions of each intensity, at a site or in general; and over the peak `beside`.
     Curve { general: GenericSites, site: Option<Site>, beside: Option<Peak> },
 }
 
@@ -276,11 +274,10 @@ impl Detail {
 impl FragilityColumns {
     fn new(fragility: &Fragility) -> FragilityColumns {
         let (_, unit, _) = fragility.over.name_and_unit();
-        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
-            at_16: of.at_16.map(|intensity| intensity / unit),
-            theta: of.theta.map(|intensity| intensity / unit),
-            at_84: of.at_84.map(|intensity| intensity / unit),
-            ..of
+        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| {
+            let [at_16, theta, at_84] =
+                [of.at_16, of.theta, of.at_84].map(|of| of.map(|intensity| intensity / unit));
+            Lognormal { at_16, theta, at_84, ..of }
         });
         FragilityColumns { over: Some(fragility.over), failure, overturning }
     }
@@ -320,8 +317,7 @@ pub fn variant_table(variants: &[Answer], question: &Question) -> anyhow::Result
     rows::side_by_side(&[names, table(variants, question)?])
 }
 
-/// The points of the fragilities as a table, each with the columns of its answer; a row without a point for
-/// an object without an answer.
+/// The points of the fragilities, each with the columns of its answer; a row of an object without an answer.
 pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
     let all = over_all(answers).flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
     let points = over_all(answers).flat_map(|Answer { points, fragility, .. }| {

@@ -236,8 +236,7 @@ impl CurveRow {
 }
 
 /// What an answer assumes, the warnings about it, and the parts of the error of overturning: standard
-/// deviations of ln of its annual rate, or of the logit of its probability; none where nothing of a part is
-/// unknown.
+/// deviations of ln of its annual rate, or of the logit of its probability.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UncertaintyColumns {

@@ -46,12 +46,10 @@ pub fn document(table: &AnswerTable) -> Document {
     let of_section =
         by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
     // Sections may be the floors.
-    let numbers = |table: &Option<Table>| {
-        let rows = table.iter().flat_map(|table| &table.rows);
-        rows.map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>()
-    };
+    let rows_of = |table: &Option<Table>| table.as_ref().map_or(Vec::new(), |table| table.rows.clone());
+    let numbers = |table| rows_of(table).iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>();
     let is_other = worst.before.is_none() && numbers(&of_section) != numbers(&of_place);
-    let of_section = of_section.filter(|_| is_other);
+    let overview = [remedies(table, &when), of_place, of_section.filter(|_| is_other)];
     Document {
         title,
         place: if several { String::new() } else { place } + &table.conditions(),
@@ -59,10 +57,7 @@ pub fn document(table: &AnswerTable) -> Document {
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: match several {
-            true => Vec::new(),
-            false => [remedies(table, &when), of_place, of_section].into_iter().flatten().collect(),
-        },
+        overview: overview.into_iter().flatten().filter(|_| !several).collect(),
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {

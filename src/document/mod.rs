@@ -87,8 +87,7 @@ pub struct Tile {
     pub words: String,
 }
 
-/// Rows of cells, of which the last may be missing; the first column has their names. A column in which
-/// nothing stands is not shown.
+/// Rows of cells, the first their name, the last may be missing. A column without cells is not shown.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     pub caption: String,
@@ -173,10 +172,7 @@ impl Document {
         self.lead.len() + self.facts.len() + self.tables.len() + self.figures.len() > 0
     }
 
-    /// The figure that says most, by itself.
-    ///
-    /// # Errors
-    /// If there is none.
+    /// The figure that says most, by itself; an error if there is none.
     pub fn main_figure(&self) -> anyhow::Result<Figure> {
         let figure = self.figures.iter().find(|figure| !figure.panels.is_empty());
         figure.cloned().context("nothing to draw: expected an answer, or width and height of an object")

@@ -41,8 +41,7 @@ impl ObjectColumns {
         self.centre_height_m.filter(|centre| (centre / half - 1.0).abs() > 1e-9)
     }
 
-    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`;
-    /// with `at a wall`.
+    /// Where it stands: `on the ground`, `on floor 3 of 5 at a wall`, `60 % up the building`.
     pub fn place(&self) -> String {
         let floor = match (&self.floor, self.floor_level) {
             (_, None) => "on the ground".to_string(),
@@ -174,8 +173,7 @@ impl Answer {
         }
     }
 
-    /// The base with which it meets its target, by the estimate and by the upper limit, or why none does;
-    /// `whose` names it among others: ` of rack`.
+    /// The base with which it meets its target, or why none does; `whose` names it among others: ` of rack`.
     pub fn about_target(&self, whose: &str) -> Option<String> {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());

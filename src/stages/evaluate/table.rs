@@ -28,8 +28,7 @@ use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::rows;
 
-/// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
-/// is given each row has its own.
+/// The intensities with their probabilities, and what to print. Where no structure is given, rows have their own.
 pub fn evaluate(
     call: &Evaluate,
     path: &Path,

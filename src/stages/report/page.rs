@@ -104,7 +104,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     Ok((head, all))
 }
 
-/// Draws all figures; what is too much to draw is left out.
 fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let rocking = tables.groups.iter().filter(|cases| rocked(cases).next().is_some());
     let mut groups: Vec<&Cases> = rocking.collect();
@@ -233,10 +232,8 @@ fn overturned(groups: &[Cases]) -> Option<String> {
 /// What came of each structure and suite, and its median by its capacities, else by the paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows(Kind::CapacityFits)?;
-    let median = match capacities.first() {
-        Some(fit) => format!("median of the lowest overturning {}", scaled_label(fit.measure)),
-        None => "median PGV (m/s), lognormal curve".to_string(),
-    };
+    let of = |fit: &CapacityFitRow| format!("median of the lowest overturning {}", scaled_label(fit.measure));
+    let median = capacities.first().map_or("median PGV (m/s), lognormal curve".to_string(), of);
     let often = "as often as the surface predicts";
     let structure = ["structure", "motions", "*p*, rad/s", "*α*", "*η*"];
     let heads = [&structure[..], &["number", "rock", "overturn", often, &median, "dispersion"]].concat();

@@ -197,8 +197,7 @@ impl Tables {
         }
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
-    /// names of structures alone do not tell.
+    /// Leaves out tables that were made of others than are there: names of structures alone do not tell.
     fn leave_out_strangers(&mut self) {
         let made_of = |item: &Item| match item.kind {
             Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters => ("in", Kind::Responses),
