@@ -22,18 +22,10 @@ use crate::warning::Warning;
 /// The model of one structure and limit state.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Model {
-    Surface {
-        overturning: Calibration,
-        exceeding: Calibration,
-        floor: Option<Floor>,
-    },
+    /// The universal surface.
+    Surface { overturning: Calibration, exceeding: Calibration, floor: Option<Floor> },
     /// The paper's planes (or the one line that holds everywhere) and its lognormal curve.
-    Paper {
-        demand: Vec<DemandFit>,
-        overturning: CurveFit,
-        limit_state: f64,
-        peaks: JointPeaks,
-    },
+    Paper { demand: Vec<DemandFit>, overturning: CurveFit, limit_state: f64, peaks: JointPeaks },
 }
 
 /// A direction in which an object rocks, with its model.

@@ -28,7 +28,7 @@ use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::rows;
 
-/// The intensities with their probabilities, and what to print. Where no structure is given, rows have their own.
+/// The intensities with their probabilities, and what to print. Rows may have structures of their own.
 pub fn evaluate(
     call: &Evaluate,
     path: &Path,
