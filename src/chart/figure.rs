@@ -209,8 +209,8 @@ impl Figure {
         Figure { caption: caption.into(), ..self }
     }
 
-    /// Writes what is drawn as comma-separated values: a row a mark, and a row for each of the words. Numbers
-    /// that a mark does not have are left empty; a layer without a name has the title of its panel.
+    /// Comma-separated values: a row a mark, and a row for each of the words; a layer without a name has the
+    /// title of its panel.
     pub fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(COLUMNS.split(','))?;
@@ -234,8 +234,8 @@ impl Figure {
                     MarkStyle::Points(symbol) => symbol.into(),
                     MarkStyle::Estimates => "",
                 };
-                let (names, kind) =
-                    ([&layer.series[..], &layer.name], [number.as_str(), layer.style.into(), form]);
+                let kind = [number.as_str(), layer.style.into(), form];
+                let names = [&layer.series[..], &layer.name];
                 layer.marks.iter().try_for_each(|mark| write(names, *mark, kind, layer.ink))?;
             }
             for Words { x, y, text, ink, .. } in &panel.words {

@@ -38,8 +38,7 @@ fn period(cases: &Cases, row: usize) -> Option<f64> {
     Some(TAU / (cases.all[row].measures.im1? * cases.structure.p_rad_s))
 }
 
-/// Figures 3 and 4: what came of the motions over velocity and period of their pulses, with the line of
-/// Eq. 5; and the demand over each of the two. A column a group.
+/// Figures 3 and 4: outcomes over velocity and period of the pulses, with Eq. 5; the demand over each.
 pub fn demand(groups: &[&Cases]) -> Figure {
     let is_pulse = |cases: &&&Cases| cases.suite.as_deref() == Some(Suite::Pulse.into());
     // PGA Tp / Vp of the pulses.
@@ -143,8 +142,7 @@ fn zeta(fit: &DemandFit) -> Option<f64> {
     Some(fit.beta? / fit.coefficients[1].abs())
 }
 
-/// Figure 7: the demand in safe rocking over each measure, with its regression, ln EDP = ln a + b ln IM
-/// (Eq. 16), if there is one; nothing without any regression.
+/// Figure 7: the demand in safe rocking over each measure, with its regression (Eq. 16) if there is one.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let laws = fits.demand(cases, DemandModel::Univariate);
     let laws: Vec<&DemandFit> = laws.filter(|fit| Measure::SCALAR.contains(&fit.im_x)).collect();
@@ -184,8 +182,7 @@ fn of_floor(fits: &Fits) -> String {
     format!("Rotations are {floor} rad or more (thin line), as in the fits.")
 }
 
-/// Figure 8: R2, beta and zeta of the regressions of each group over all cases, and how well its curves of
-/// overturning predict held-out cases.
+/// Figure 8: R2, beta and zeta of the regressions, and how well curves of overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let laws = fits.demand.iter().filter(|fit| fit.r2.is_some());
     let rows = |value: fn(&DemandFit) -> Option<f64>| -> Vec<Quality> {
@@ -236,8 +233,7 @@ fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
     (!layers.is_empty()).then(|| Panel::new("", x, Axis::names(names), layers))
 }
 
-/// Figure 9: the demand in safe rocking and its two planes (Eqs. 17 and 18, Table II), seen along the line in
-/// which they meet; one panel a group.
+/// Figure 9: the demand and its two planes (Eqs. 17 and 18), seen along the line in which they meet.
 pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
     let mut panels = Vec::new();
     for cases in groups {
@@ -287,8 +283,7 @@ fn planes_panel(fits: &Fits, cases: &Cases, transition: f64, planes: [Vector3<f6
     Panel::new(&name(cases), x, y, layers)
 }
 
-/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of
-/// parallel planes, which meet nowhere, along ln IM3.
+/// To the right and upwards in a view along the line where the planes meet; of parallel ones along ln IM3.
 fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
     let along = unit(first.cross(&second));

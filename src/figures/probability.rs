@@ -26,8 +26,7 @@ const CONFIDENCE: f64 = 0.95;
 const LEVELS: [(f64, Dash); 4] =
     [(0.02, Dash::Short), (0.1, Dash::Mixed), (0.5, Dash::Solid), (0.9, Dash::Long)];
 
-/// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one; a panel a
-/// group.
+/// Figure 10: probability of exceeding the limit state in safe rocking; a panel a group.
 pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
     let panels = groups.iter().map(|cases| {
         // Structures of one suite have curves at the same IM3.

@@ -48,8 +48,7 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// Curves of P_ro of all structures over PGV, IM5 and the hybrid measure of the paper's exponent; a row a
-/// suite of ten curves or more.
+/// Curves of P_ro over PGV, IM5 and the hybrid measure of the paper's exponent; a row a suite of ten or more.
 pub fn universality(groups: &[Cases]) -> Figure {
     let hybrid = format!("hybrid of IM4 and 1/IM3, *λ* = {EXAMPLE_LAMBDA}");
     let measures: [(&str, Over); 3] = [
