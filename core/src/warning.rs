@@ -106,7 +106,6 @@ struct Subjects {
     count: usize,
 }
 
-/// Subjects that a line names.
 const NAMED: usize = 3;
 /// Letters of a subject that a line shows.
 const LONGEST_SUBJECT: usize = 300;

@@ -14,8 +14,8 @@ use crate::table::{TableError, rows};
 pub type Labels = Vec<(String, String)>;
 
 /// The columns of labels; none without any. A heading that answers have too gets ` (list)` behind it.
-pub fn columns<'a>(answers: impl Iterator<Item = &'a Answer>) -> anyhow::Result<Option<RecordBatch>> {
-    let all: Vec<&Labels> = answers.map(|answer| &answer.labels).collect();
+pub fn columns(answers: &[&Answer]) -> anyhow::Result<Option<RecordBatch>> {
+    let all: Vec<&Labels> = answers.iter().map(|answer| &answer.labels).collect();
     let Some(headings) = all.iter().find(|labels| !labels.is_empty()) else { return Ok(None) };
     let mut columns: Vec<(String, ArrayRef, bool)> = Vec::new();
     for (at, (heading, _)) in headings.iter().enumerate() {

@@ -4,19 +4,18 @@
 //! row        the columns of an answer
 //! labels     the own columns of the list of the objects
 //! at_site    what is drawn of an object at a site
-//! variants   what would change an object, a row each
 //! ```
 
 mod at_site;
 mod labels;
 mod row;
-mod variants;
 
 use std::collections::BTreeSet;
 use std::iter;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
-use arrow_array::RecordBatch;
+use arrow_array::{ArrayRef, RecordBatch, StringArray};
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{
@@ -29,7 +28,7 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
-use crate::figures::common::by;
+use crate::figures::common::distinct;
 use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
@@ -41,17 +40,14 @@ pub use labels::Labels;
 pub use row::{
     CurveRow, FragilityColumns, ObjectColumns, RateColumns, StateColumns, TreeColumns, UncertaintyColumns,
 };
-use variants::variants;
 
 /// What is asked of an object.
 pub enum Question {
     /// What comes of it under one motion.
     Motion(GroundMotion),
-    /// How often it rocks and overturns at a site, and in so many years; with a base for which the
-    /// probability of overturning is a target.
+    /// How often it rocks and overturns at a site, and in so many years; with a base for a target.
     Hazard { site: Site, years: f64, target: Option<f64> },
-    /// What share of the motions of each intensity has the effect: at the site of a hazard curve, or in
-    /// general; and the same over the peak `beside`.
+    /// The shares of the motions of each intensity, at a site or in general; and over the peak `beside`.
     Curve { general: GenericSites, site: Option<Site>, beside: Option<Peak> },
 }
 
@@ -86,14 +82,7 @@ pub struct Answer {
     pub before: Option<Box<Before>>,
     /// What each of several files says of the same object under another hazard.
     #[serde(skip)]
-    pub alternatives: Vec<Alternative>,
-}
-
-/// What a file says of an object.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Alternative {
-    pub file: String,
-    pub p: Interval<Option<f64>>,
+    pub alternatives: Vec<Answer>,
 }
 
 /// What an object was before.
@@ -103,7 +92,6 @@ pub struct Before {
     pub p: Interval<Option<f64>>,
     /// The rate after over the rate before, with limits; none where one has no rate.
     pub ratio: Interval<Option<f64>>,
-    /// What differs, in words.
     pub changes: Vec<String>,
 }
 
@@ -251,8 +239,8 @@ impl Answer {
         self.before.as_deref().is_none_or(is_new)
     }
 
-    /// By what answers are sorted, the worst first: the probability of overturning, where there is no value
-    /// its upper end; else the inverse of the intensity that overturns it under half of the motions.
+    /// What sorts answers, the worst first: the probability of overturning, else its upper end, else the
+    /// inverse of the intensity that overturns it under half of the motions.
     pub fn severity(&self) -> f64 {
         let p = self.p.p_overturning;
         let fragility = &self.fragility;
@@ -262,13 +250,17 @@ impl Answer {
 }
 
 impl Detail {
-    /// Of an object at a site.
+    /// Of an object at a site. A variant that would not rock, or lies outside the model, has no answer.
     pub fn new(object: &Object, site: &Site, years: f64, models: ModelsOf) -> Detail {
-        let rocking = models(object).ok();
-        Detail {
-            variants: variants(object, site, years, models),
-            at_site: rocking.and_then(|(rocking, _)| AtSite::new(site, &rocking)),
-        }
+        let question = Question::Hazard { site: site.clone(), years, target: None };
+        let changes = object.changes().into_iter().map(|changed| (changed.words, changed.object));
+        let all = iter::once(("as it is".to_string(), object.clone())).chain(changes);
+        let variants = all.filter_map(|(words, object)| {
+            let (answer, _) = Answer::new(&object, &question, models).ok()?;
+            Some(Answer { variant: Some(words), ..answer }).filter(Answer::is_answered)
+        });
+        let at_site = models(object).ok().and_then(|(rocking, _)| AtSite::new(site, &rocking));
+        Detail { variants: variants.collect(), at_site }
     }
 
     /// The variants that differ in their angle or place: others are the same object, known better.
@@ -282,11 +274,10 @@ impl Detail {
 impl FragilityColumns {
     fn new(fragility: &Fragility) -> FragilityColumns {
         let (_, unit, _) = fragility.over.name_and_unit();
-        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
-            at_16: of.at_16.map(|intensity| intensity / unit),
-            theta: of.theta.map(|intensity| intensity / unit),
-            at_84: of.at_84.map(|intensity| intensity / unit),
-            ..of
+        let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| {
+            let [at_16, theta, at_84] =
+                [of.at_16, of.theta, of.at_84].map(|of| of.map(|intensity| intensity / unit));
+            Lognormal { at_16, theta, at_84, ..of }
         });
         FragilityColumns { over: Some(fragility.over), failure, overturning }
     }
@@ -299,57 +290,49 @@ pub fn over_all<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> impl Itera
 
 /// The answers as a table, without the columns of other questions.
 pub fn table(answers: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
-    let answers = || over_all(answers);
-    let p = rows::batch(answers().map(|answer| &answer.p))?;
-    let list = rows::batch(answers().map(|answer| &answer.list))?;
+    let all: Vec<&Answer> = over_all(answers).collect();
+    let p = rows::batch(all.iter().map(|answer| &answer.p))?;
+    let list = rows::batch(all.iter().map(|answer| &answer.list))?;
     let of_question = match question {
-        Question::Motion(_) => vec![rows::batch(answers().map(|answer| &answer.tree))?, p, list],
-        Question::Hazard { .. } => vec![rows::batch(answers().map(|answer| &answer.rates))?, p, list],
-        Question::Curve { .. } => vec![rows::batch(answers().map(|answer| &answer.fragility))?],
+        Question::Motion(_) => vec![rows::batch(all.iter().map(|answer| &answer.tree))?, p, list],
+        Question::Hazard { .. } => vec![rows::batch(all.iter().map(|answer| &answer.rates))?, p, list],
+        Question::Curve { .. } => vec![rows::batch(all.iter().map(|answer| &answer.fragility))?],
     };
-    let mut parts = vec![rows::batch(answers().map(|answer| &answer.object))?];
-    parts.extend(of_question);
-    parts.push(rows::batch(answers().map(|answer| &answer.uncertainty))?);
-    parts.extend(labels::columns(answers())?);
-    rows::side_by_side(&parts)
+    with_objects(&all, of_question)
 }
 
-/// What is changed of an object.
-#[derive(Serialize, Deserialize)]
-struct VariantColumn {
-    variant: Option<String>,
+/// Columns between those of the objects and those of what is not known of them.
+fn with_objects(answers: &[&Answer], columns: Vec<RecordBatch>) -> anyhow::Result<RecordBatch> {
+    let objects = rows::batch(answers.iter().map(|answer| &answer.object))?;
+    let uncertainty = rows::batch(answers.iter().map(|answer| &answer.uncertainty))?;
+    let labels = labels::columns(answers)?;
+    rows::side_by_side(&[vec![objects], columns, vec![uncertainty], Vec::from_iter(labels)].concat())
 }
 
 /// Variants as a table, each named by what is changed.
 pub fn variant_table(variants: &[Answer], question: &Question) -> anyhow::Result<RecordBatch> {
-    let names = variants.iter().map(|answer| VariantColumn { variant: answer.variant.clone() });
-    rows::side_by_side(&[rows::batch(&names.collect::<Vec<_>>())?, table(variants, question)?])
+    let names = variants.iter().map(|answer| answer.variant.as_deref());
+    let names: ArrayRef = Arc::new(StringArray::from_iter(names));
+    let names = RecordBatch::try_from_iter_with_nullable([("variant", names, true)])?;
+    rows::side_by_side(&[names, table(variants, question)?])
 }
 
-/// The points of the fragilities as a table, each with the columns of its answer; a row without a point for
-/// an object without an answer.
+/// The points of the fragilities, each with the columns of its answer; a row of an object without an answer.
 pub fn points(answers: &[Answer]) -> anyhow::Result<RecordBatch> {
-    let all = || over_all(answers).flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
+    let all = over_all(answers).flat_map(|answer| iter::repeat_n(answer, answer.points.len().max(1)));
     let points = over_all(answers).flat_map(|Answer { points, fragility, .. }| {
         let empty = points.is_empty().then(CurveRow::default);
         points.iter().map(|point| CurveRow::new(fragility.over, point)).chain(empty)
     });
-    let points: Vec<CurveRow> = points.collect();
-    let mut parts = vec![
-        rows::batch(all().map(|answer| &answer.object))?,
-        rows::batch(&points)?,
-        rows::batch(all().map(|answer| &answer.fragility))?,
-        rows::batch(all().map(|answer| &answer.uncertainty))?,
-    ];
-    parts.extend(labels::columns(all())?);
-    rows::side_by_side(&parts)
+    let (all, points) = (all.collect::<Vec<_>>(), points.collect::<Vec<_>>());
+    let fragilities = rows::batch(all.iter().map(|answer| &answer.fragility))?;
+    with_objects(&all, vec![rows::batch(&points)?, fragilities])
 }
 
 impl AnswerTable {
     /// Reads the answers of a file, and the variants beside it.
-    pub fn read(path: &Path, made: Provenance) -> Result<AnswerTable, TableError> {
-        let file = path.file_name().unwrap_or_default().to_string_lossy();
-        let mut rows = Vec::new();
+    pub fn read(path: &Path, made: Option<&Provenance>) -> Result<AnswerTable, TableError> {
+        let (file, mut rows) = (path.file_name().unwrap_or_default().to_string_lossy(), Vec::new());
         for batch in ParquetTable::open(path)?.batches(|_| true) {
             let batch = batch?;
             let points = rows::from_batch::<CurveRow>(&batch)?.into_iter().zip(labels::read(&batch)?);
@@ -357,7 +340,7 @@ impl AnswerTable {
                 add(&mut rows, Answer { labels, file: file.to_string(), ..answer }, &point);
             }
         }
-        let beside = variants_beside(path);
+        let (beside, made) = (variants_beside(path), made.cloned().unwrap_or_default());
         let variants: Vec<Answer> = if made.is_beside(&beside) { rows::read(&beside)? } else { Vec::new() };
         let of_objects = variants.chunk_by(|a, b| a.object.structure == b.object.structure);
         let details = of_objects.map(|its| Detail { variants: its.to_vec(), ..Detail::default() }).collect();
@@ -384,8 +367,7 @@ impl AnswerTable {
 
     /// How the files of people were read, each once.
     pub fn readings(&self) -> Vec<&Reading> {
-        let readings = self.made.iter().flat_map(|made| &made.readings);
-        by(readings, |reading| reading).iter().map(|same| same[0]).collect()
+        distinct(self.made.iter().flat_map(|made| &made.readings))
     }
 
     /// What answers are for, after a place: `; hazard: pga.csv`.
@@ -399,7 +381,6 @@ impl AnswerTable {
     }
 }
 
-/// The file of the variants of a file of answers.
 pub fn variants_beside(path: &Path) -> PathBuf {
     path.with_extension("variants.parquet")
 }

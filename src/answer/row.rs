@@ -9,7 +9,7 @@ use rockfrag_core::hazard::{
     Bases, Budget, FragilityPoint, GroundMotion, Lognormal, SiteRates, VelocitySource, probability_in_years,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{Base, LowHigh, Object, RockingObject, Shape, UncertaintySource};
+use rockfrag_core::object::{Base, Object, RockingObject, Shape, UncertaintySource};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::units::G_M_S2;
 use rockfrag_core::warning::Warning;
@@ -31,7 +31,6 @@ pub struct ObjectColumns {
     pub floor_level: Option<f64>,
     /// The floor as the list of the object has it.
     pub floor: Option<String>,
-    /// Number of such objects.
     pub count: Option<f64>,
     pub p_rad_s: Option<f64>,
     pub alpha_rad: Option<f64>,
@@ -40,16 +39,13 @@ pub struct ObjectColumns {
     pub base: Option<Base>,
     /// Of an object on a pedestal: fixed, it is one body with it; else it is loose on it.
     pub is_fixed_to_pedestal: Option<bool>,
-    /// Rebound from a wall behind it.
     pub wall_rebound: Option<f64>,
     /// tan(alpha): with less friction it slides.
     pub friction: Option<f64>,
     /// Whether its friction was given, and is enough.
     pub is_friction_known: Option<bool>,
     pub model: Option<String>,
-    /// Kind of motion that the model is for.
     pub motions: Option<MotionKind>,
-    /// Responses that the model was fitted to.
     pub responses: Option<i64>,
     pub limit_state: Option<f64>,
 }
@@ -166,10 +162,8 @@ pub struct RateColumns {
     pub overturning_per_year: Interval<Option<f64>>,
     pub return_period_years: Option<f64>,
     pub years: Option<f64>,
-    /// What each unknown changes in ln of the rate of overturning at its low and high quantile, by standard
-    /// deviation: `eta -0.36 0.31; velocity -0.4 0.4`.
+    /// The changes of [`RateColumns::budget`], as JSON.
     pub rate_changes: Option<String>,
-    /// Source of PGV / PGA.
     pub velocity_by: Option<VelocitySource>,
     /// Share of the rate of overturning beyond the last point of the hazard curve.
     pub share_extrapolated: Option<f64>,
@@ -187,7 +181,7 @@ impl RateColumns {
             overturning_per_year: overturning,
             return_period_years: overturning.value.map(f64::recip).filter(|years| years.is_finite()),
             years: Some(years),
-            rate_changes: overturning.value.map(|_| changes_in_words(&rates.budget)),
+            rate_changes: overturning.value.and_then(|_| serde_json::to_string(&rates.budget.changes).ok()),
             velocity_by: rates.pgv_pga_source,
             share_extrapolated: rates.beyond,
             ..RateColumns::default()
@@ -198,21 +192,8 @@ impl RateColumns {
 
     /// What is unknown of the rate of overturning.
     pub fn budget(&self) -> Option<Budget> {
-        let change = |words: &str| {
-            let mut words = words.split(' ');
-            let source = words.next()?.parse().ok()?;
-            let mut number = || words.next()?.parse().ok();
-            Some(LowHigh { source, low: number()?, high: number()? })
-        };
-        let changes = self.rate_changes.as_ref()?.split_terminator(BETWEEN).map(change);
-        Some(Budget { changes: changes.collect::<Option<_>>()? })
+        Some(Budget { changes: serde_json::from_str(self.rate_changes.as_ref()?).ok()? })
     }
-}
-
-fn changes_in_words(budget: &Budget) -> String {
-    let changes = budget.changes.iter();
-    let words = changes.map(|LowHigh { source, low, high }| format!("{source} {low:.4} {high:.4}"));
-    words.collect::<Vec<_>>().join(BETWEEN)
 }
 
 /// What the fragility of an object comes to, over PGA in g or PGV in m/s.
@@ -255,8 +236,7 @@ impl CurveRow {
 }
 
 /// What an answer assumes, the warnings about it, and the parts of the error of overturning: standard
-/// deviations of ln of its annual rate, or of the logit of its probability; none where nothing of a part is
-/// unknown.
+/// deviations of ln of its annual rate, or of the logit of its probability.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct UncertaintyColumns {
@@ -276,11 +256,10 @@ pub struct UncertaintyColumns {
     pub error_object: Option<f64>,
     pub error_floor: Option<f64>,
     pub error_hazard: Option<f64>,
-    /// The largest source.
     pub error_largest: Option<UncertaintySource>,
 }
 
-/// Stands between warnings, and between changes.
+/// Stands between warnings.
 const BETWEEN: &str = "; ";
 
 impl UncertaintyColumns {

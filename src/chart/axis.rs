@@ -78,7 +78,6 @@ impl<'a> Ruler<'a> {
         Ruler { scale, low, high, from, to }
     }
 
-    /// The place of a value.
     pub fn at(&self, value: f64) -> f64 {
         let fraction = (self.scale.of(value) - self.low) / (self.high - self.low);
         self.from + (self.to - self.from) * fraction

@@ -41,7 +41,6 @@ const SPREAD: f64 = 0.64;
 
 /// The fonts of a file: the first that its reader has.
 const FONTS: &str = "Fira Sans, Helvetica Neue, Helvetica, Arial, Liberation Sans, sans-serif";
-/// Dots per inch of PNG files.
 pub const DPI: f32 = 300.0;
 
 /// Writes a figure as an SVG file on white.
@@ -58,13 +57,11 @@ pub fn svg(figure: &Figure) -> String {
     }
     let rows = panels.chunks(columns);
     rows.for_each(|row| picture.row(row, figure.height, FILE_WIDTH / columns as f64));
-    picture.height = round(picture.height.max(1.0));
+    let height = round(picture.height.max(1.0));
+    picture.height = height;
     let [title, caption] = [&figure.title, captions.join(" ").trim()].map(|text| escape(&words(text)));
-    let attributes = format!(
-        "xmlns=\"http://www.w3.org/2000/svg\" width=\"{FILE_WIDTH}pt\" height=\"{}pt\" \
-         font-family=\"{FONTS}\"",
-        picture.height
-    );
+    let size = format!("width=\"{FILE_WIDTH}pt\" height=\"{height}pt\"");
+    let attributes = format!("xmlns=\"http://www.w3.org/2000/svg\" {size} font-family=\"{FONTS}\"");
     let meta = format!("xmlns=\"http://www.w3.org/1999/xhtml\" name=\"generator\" content=\"{CREATED_BY}\"");
     let head = format!(
         "<metadata><meta {meta}/></metadata>\n<title>{title}</title>\n<desc>{caption}</desc>\n\
@@ -73,8 +70,7 @@ pub fn svg(figure: &Figure) -> String {
     picture.svg(&attributes, &head)
 }
 
-/// Writes the panels of a figure for a page that has the fonts and the colours: each a picture of its own,
-/// so that they stand beside each other where there is room.
+/// The panels of a figure for a page, each a picture of its own, beside each other where there is room.
 pub fn html_of_panels(figure: &Figure) -> String {
     // As high over its width as in the file.
     let across = PAGE_WIDTH * figure.columns.max(1) as f64 / FILE_WIDTH;
@@ -159,7 +155,6 @@ impl Panel {
 }
 
 impl Picture {
-    /// Draws the legend of panels in lines.
     fn legend(&mut self, panels: &[Panel]) {
         let (mut x, mut y) = (BEFORE, self.height + 11.0);
         for Layer { name, ink, style, marks, .. } in listed(panels) {

@@ -141,7 +141,6 @@ pub enum Ink {
     Muted,
     /// Guides, behind data.
     Rule,
-    /// Data, by number.
     Data(usize),
     /// A step from cold to hot: 0, 1 or 2.
     Step(usize),
@@ -158,7 +157,6 @@ pub enum Dash {
 
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
-/// Columns of the table of a figure.
 const COLUMNS: &str = "panel,series,layer,x_is,x,y_is,y,row,low,high,n,\
                        panel_number,layer_number,x_scale,y_scale,style,form,colour";
 
@@ -211,8 +209,8 @@ impl Figure {
         Figure { caption: caption.into(), ..self }
     }
 
-    /// Writes what is drawn as comma-separated values: a row a mark, and a row for each of the words. Numbers
-    /// that a mark does not have are left empty; a layer without a name has the title of its panel.
+    /// Comma-separated values: a row a mark, and a row for each of the words; a layer without a name has the
+    /// title of its panel.
     pub fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(COLUMNS.split(','))?;
@@ -236,8 +234,8 @@ impl Figure {
                     MarkStyle::Points(symbol) => symbol.into(),
                     MarkStyle::Estimates => "",
                 };
-                let (names, kind) =
-                    ([&layer.series[..], &layer.name], [number.as_str(), layer.style.into(), form]);
+                let kind = [number.as_str(), layer.style.into(), form];
+                let names = [&layer.series[..], &layer.name];
                 layer.marks.iter().try_for_each(|mark| write(names, *mark, kind, layer.ink))?;
             }
             for Words { x, y, text, ink, .. } in &panel.words {
@@ -271,11 +269,11 @@ impl Panel {
         self.layers.iter().filter(|layer| !layer.marks.is_empty())
     }
 
-    /// Adds words, and a vertical line from a height to them.
-    pub fn add_upright(&mut self, words: Words, from: f64) {
-        let line = [from, words.y].map(|y| Mark::new(words.x, y));
-        self.layers.push(Layer::guide(&words.text, words.ink, line));
-        self.words.push(words);
+    /// Adds a vertical line from a height to another, where its words stand.
+    pub fn add_upright(&mut self, x: f64, [from, y]: [f64; 2], text: String, position: LabelPosition) {
+        let line = [from, y].map(|y| Mark::new(x, y));
+        self.layers.push(Layer::guide(&text, Ink::Muted, line));
+        self.words.push(Words { x, y, text, position, ink: Ink::Muted });
     }
 }
 

@@ -3,7 +3,6 @@
 use super::figure::{Dash, Ink, LabelPosition, Symbol, Words};
 use super::text::{Level, escape, runs, words};
 
-/// A place in a picture.
 pub type Point = nalgebra::Point2<f64>;
 
 /// Height of the letters of titles and legends; and of ticks, labels and words beside data.

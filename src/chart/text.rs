@@ -3,7 +3,6 @@
 
 use crate::number::is_hidden;
 
-/// Words in one style.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Run {
     pub words: String,
@@ -18,7 +17,6 @@ pub enum Level {
     Super,
 }
 
-/// Splits marked text into its styles.
 pub fn runs(marked: &str) -> Vec<Run> {
     let mut runs = Vec::new();
     let mut run = Run { words: String::new(), italic: false, level: Level::Line };
@@ -88,7 +86,6 @@ pub fn escape(text: &str) -> String {
     clean.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Sets the minus sign of a number.
 pub fn minus(number: String) -> String {
     number.replace('-', "\u{2212}")
 }

@@ -8,11 +8,10 @@ use rockfrag_core::object::UncertaintySource;
 use rockfrag_core::statistics::Interval;
 
 use super::Document;
-use super::list::{not_assessed, pieces};
-use crate::answer::{Alternative, Answer, AnswerTable, Before};
-use crate::number::{self, count, counted, listed, significant};
+use super::list::{named, not_assessed, pieces};
+use crate::answer::{Answer, AnswerTable, Before};
+use crate::number::{self, count, counted, significant};
 
-/// Objects that are named in a line.
 const NAMED: usize = 20;
 
 /// None where the tables are of other objects, or there is only one.
@@ -20,12 +19,9 @@ pub fn document(tables: &[AnswerTable]) -> Option<Document> {
     let [first, others @ ..] = tables else { return None };
     let hazard = |table: &AnswerTable| table.made.first()?.input("hazard");
     let is_alternative = |other: &AnswerTable| {
-        let same = partners(&first.rows, &other.rows);
-        let is_whole = first.rows.len() == other.rows.len() && same.iter().all(Option::is_some);
-        let equal = |(answer, one): (&Answer, &Option<usize>)| {
-            one.is_some_and(|one| changes([&first.rows[one], answer]).is_empty())
-        };
-        is_whole && hazard(first) != hazard(other) && other.rows.iter().zip(&same).all(equal)
+        let mut both = other.rows.iter().zip(partners(&first.rows, &other.rows));
+        let are_equal = both.all(|(answer, one)| one.is_some_and(|one| changes([one, answer]).is_empty()));
+        are_equal && first.rows.len() == other.rows.len() && hazard(first) != hazard(other)
     };
     match others {
         [] => None,
@@ -37,20 +33,17 @@ pub fn document(tables: &[AnswerTable]) -> Option<Document> {
 
 /// The rows of the first table, each with what every table says of it.
 fn alternatives(tables: &[AnswerTable]) -> Document {
-    let mut all = AnswerTable { details: Vec::new(), ..tables[0].clone() };
-    all.made = tables.iter().flat_map(|table| table.made.clone()).collect();
+    let joined = AnswerTable { details: Vec::new(), ..AnswerTable::joined(tables) };
+    let mut all = AnswerTable { details: Vec::new(), made: joined.made.clone(), ..tables[0].clone() };
     for table in tables {
         for (answer, one) in all.rows.iter_mut().zip(partners(&table.rows, &tables[0].rows)) {
-            let p = one.map_or(Interval::default(), |one| table.rows[one].p.p_overturning);
-            answer.alternatives.push(Alternative { file: table.file(), p });
+            answer.alternatives.extend(one.cloned());
         }
     }
-    let joined = AnswerTable { details: Vec::new(), ..AnswerTable::joined(tables) };
     let (now, files) = (Document::of_answers(&all), Document::of_answers(&joined));
     let title = format!("{}, {} alternatives", now.title, tables.len());
-    let of_each = tables
-        .iter()
-        .map(|table| format!("{}: {}", table.file(), Document::of_answers(table).facts.join(" ")));
+    let facts = |table| Document::of_answers(table).facts.join(" ");
+    let of_each = tables.iter().map(|table| format!("{}: {}", table.file(), facts(table)));
     let lead = files.lead.into_iter().take(1).chain(not_assessed(&all.rows)).collect();
     let Document { tiles, notes, .. } = files;
     Document { title, lead, tiles, notes, facts: of_each.collect(), overview: Vec::new(), ..now }
@@ -61,20 +54,17 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     let mut table = after.clone();
     let partners = partners(&before.rows, &after.rows);
     for (answer, one) in table.rows.iter_mut().zip(&partners) {
-        let one = one.map(|one| &before.rows[one]).filter(|one| one.is_answered() || answer.is_answered());
+        let one = one.filter(|one| one.is_answered() || answer.is_answered());
         answer.before = one.map(|one| Box::new(before_of(one, answer, is_same)));
     }
     let in_both = table.rows.iter().filter(|answer| answer.before.is_some());
     let both = pieces(in_both.clone());
     let changed = count(pieces(in_both.filter(|answer| answer.is_news())));
-    let gone = before.rows.iter().enumerate().filter(|(at, _)| !partners.contains(&Some(*at)));
-    let new = after.rows.iter().zip(&partners).filter(|(_, one)| one.is_none());
-    let [gone, new] = [gone.map(|(_, one)| one).collect::<Vec<_>>(), new.map(|(one, _)| one).collect()];
+    let is_there = |one: &&Answer| partners.iter().flatten().any(|partner| std::ptr::eq(*partner, *one));
+    let gone: Vec<&Answer> = before.rows.iter().filter(|one| !is_there(one)).collect();
+    let new = after.rows.iter().zip(&partners).filter(|(_, one)| one.is_none()).map(|(one, _)| one).collect();
     let unmatched = [("Removed", gone), ("Added", new)].into_iter().filter(|(_, only)| !only.is_empty());
-    let unmatched = unmatched.map(|(what, only)| {
-        let names: Vec<String> = only.iter().map(|one| one.object.called()).collect();
-        format!("{what}: {}.", listed(&names, NAMED))
-    });
+    let unmatched = unmatched.map(|(what, only)| format!("{what}: {}.", named(only, NAMED)));
     let hazards = AnswerTable::joined(&[before.clone(), after.clone()]).conditions();
     let shared = if is_same { "" } else { ", but for PGV/PGA, as the hazards differ" };
     let ratios = format!(
@@ -95,26 +85,23 @@ fn before_and_after(before: &AnswerTable, after: &AnswerTable, is_same: bool) ->
     })
 }
 
-/// What is the same of an object in both lists, if it tells.
-type Key<'a> = &'a dyn Fn(&Answer) -> Option<String>;
-
 /// For each row of the second list the same object of the first: by the tags of both, where they have such a
 /// column; else by a name that is no line of a list; else by the name without it and the size.
-fn partners(before: &[Answer], after: &[Answer]) -> Vec<Option<usize>> {
+fn partners<'a>(before: &'a [Answer], after: &[Answer]) -> Vec<Option<&'a Answer>> {
     let tag = tags(before).find(|heading| tags(after).any(|other| other == *heading));
-    let by_tag = |one: &Answer| Some(one.label(tag?)?.to_string());
-    let by_name = |one: &Answer| {
-        Some(one.object.structure.clone()).filter(|name| tag.is_none() && without_line(name) == name)
+    let key = |one: &Answer, with_size: bool| {
+        let name = without_line(&one.object.structure);
+        match tag {
+            Some(tag) => one.label(tag).map(str::to_string),
+            None if with_size => Some(format!("{name} {}", one.object.size())),
+            None => Some(name.to_string()).filter(|name| *name == one.object.structure),
+        }
     };
-    let by_size = |one: &Answer| {
-        tag.is_none().then(|| format!("{} {}", without_line(&one.object.structure), one.object.size()))
-    };
-    let mut left: Vec<usize> = (0..before.len()).collect();
-    let mut partners = vec![None; after.len()];
-    for key in [&by_tag as Key, &by_name, &by_size] {
+    let (mut left, mut partners) = (Vec::from_iter(before), vec![None; after.len()]);
+    for with_size in [false, true] {
         for (partner, answer) in partners.iter_mut().zip(after).filter(|(partner, _)| partner.is_none()) {
-            let wanted = key(answer);
-            let same = left.iter().position(|at| wanted.is_some() && key(&before[*at]) == wanted);
+            let wanted = key(answer, with_size);
+            let same = left.iter().position(|one| wanted.is_some() && key(one, with_size) == wanted);
             *partner = same.map(|same| left.remove(same));
         }
     }

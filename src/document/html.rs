@@ -14,8 +14,7 @@ const MANY: usize = 9;
 const MOST: usize = 12;
 
 impl Document {
-    /// # Errors
-    /// If it has nothing to show.
+    /// An error if it has nothing to show.
     pub fn html(&self) -> anyhow::Result<String> {
         anyhow::ensure!(self.has_content(), "a page without content: expected answers, responses or fits");
         let (title, first) = (words(&self.title), self.figures.first());
@@ -73,7 +72,6 @@ impl Document {
     }
 }
 
-/// Marked text.
 fn write(text: &str) -> Markup {
     PreEscaped(marked(text))
 }

@@ -4,10 +4,10 @@ use std::collections::BTreeSet;
 
 use super::phrases::{assumptions, facts, intensity_cells};
 use super::{Document, Table, Tile, object};
-use crate::answer::{Answer, AnswerTable, Before, Detail, StateColumns};
+use crate::answer::{Answer, AnswerTable, Before, Detail};
 use crate::chart::text::literal;
 use crate::figures::answers;
-use crate::figures::common::by;
+use crate::figures::common::{by, distinct};
 use crate::inputs::SECTION;
 use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, length, listed, plain};
 
@@ -33,13 +33,10 @@ pub fn document(table: &AnswerTable) -> Document {
         let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![rows], ..Document::default() };
     }
-    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.is_upstairs()));
+    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.floor_level.is_some()));
     let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
-    let kinds = if all > table.rows.len() {
-        format!(" in {}", counted(table.rows.len(), "row"))
-    } else {
-        String::new()
-    };
+    let kinds = Some(table.rows.len()).filter(|rows| *rows < all);
+    let kinds = kinds.map_or(String::new(), |rows| format!(" in {}", counted(rows, "row")));
     let place = format!("{free} of {}{kinds} assessed ({upstairs} above the ground)", count(all));
     let whose = format!(" of {}", worst.object.called());
     let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
@@ -49,12 +46,10 @@ pub fn document(table: &AnswerTable) -> Document {
     let of_section =
         by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
     // Sections may be the floors.
-    let numbers = |table: &Option<Table>| {
-        let rows = table.iter().flat_map(|table| &table.rows);
-        rows.map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>()
-    };
+    let rows_of = |table: &Option<Table>| table.as_ref().map_or(Vec::new(), |table| table.rows.clone());
+    let numbers = |table| rows_of(table).iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>();
     let is_other = worst.before.is_none() && numbers(&of_section) != numbers(&of_place);
-    let of_section = of_section.filter(|_| is_other);
+    let overview = [remedies(table, &when), of_place, of_section.filter(|_| is_other)];
     Document {
         title,
         place: if several { String::new() } else { place } + &table.conditions(),
@@ -62,10 +57,7 @@ pub fn document(table: &AnswerTable) -> Document {
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: match several {
-            true => Vec::new(),
-            false => [remedies(table, &when), of_place, of_section].into_iter().flatten().collect(),
-        },
+        overview: overview.into_iter().flatten().filter(|_| !several).collect(),
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
@@ -91,17 +83,16 @@ fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
     Some(document)
 }
 
-/// How many objects of each place are above the target, and are to be expected to overturn; none of a single
-/// place.
+/// How many objects of each of several places are above the target, and are expected to overturn.
 fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
     let mut groups = by(answers.iter().copied(), place);
     groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
     let target = answers[0].rates.target;
     let row = |group: &Vec<&Answer>| {
-        let above =
-            group.iter().copied().filter(|answer| target.is_some_and(|most| answer.severity() > most));
-        let above = target.map_or(String::new(), |_| count(pieces(above)));
-        vec![place(group[0]), count(pieces(group.iter().copied())), above, TWO_DIGITS.one(number_of(group))]
+        let its = || group.iter().copied();
+        let above = |most: f64| count(pieces(its().filter(|answer| answer.severity() > most)));
+        let above = target.map_or(String::new(), above);
+        vec![place(group[0]), count(pieces(its())), above, TWO_DIGITS.one(number_of(group))]
     };
     let above = target.map_or(String::new(), |target| format!("above {}", PERCENT.one(target)));
     let heads = [head, "objects", &above, "expected to overturn"];
@@ -112,16 +103,11 @@ fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Op
 /// What the worst objects come to with one thing changed, in percent.
 fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
     let worst = &table.details;
-    let mut heads = vec!["object".to_string(), "as it is".to_string()];
-    for change in worst.iter().flat_map(|detail| detail.remedies()) {
-        let words = change.variant.clone().unwrap_or_default();
-        if !heads.contains(&words) {
-            heads.push(words);
-        }
-    }
+    let changes = worst.iter().flat_map(Detail::remedies).filter_map(|change| change.variant.as_deref());
+    let heads = [vec!["object", "as it is"], distinct(changes)].concat();
     let row = |detail: &Detail| {
-        let of = |head: &String| {
-            let one = detail.variants.iter().find(|one| one.variant.as_ref() == Some(head));
+        let of = |head: &&str| {
+            let one = detail.variants.iter().find(|one| one.variant.as_deref() == Some(*head));
             one.map_or(String::new(), |one| OF_HUNDRED.value(one.p.p_overturning))
         };
         let name = detail.variants[0].object.called();
@@ -132,10 +118,9 @@ fn remedies(table: &AnswerTable, when: &str) -> Option<Table> {
         "The worst, if one thing is changed: probability of overturning {when}, %. Anchored, none rocks (forces \
          by ASCE 7 chapter 13 or EN 1998-1 4.3.5)"
     );
-    (!rows.is_empty()).then_some(Table { caption, heads, rows, ..Table::default() })
+    (!rows.is_empty()).then(|| Table::new(&heads, rows).explained(&caption))
 }
 
-/// The object that is the most likely to overturn, if one may.
 fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
@@ -151,7 +136,6 @@ fn worst_of(table: &AnswerTable) -> String {
     }
 }
 
-/// The file of an answer, where there are several.
 fn file_of(answer: &Answer, table: &AnswerTable) -> String {
     let several = table.rows.iter().any(|other| other.file != answer.file);
     if several { format!(" ({})", literal(&answer.file)) } else { String::new() }
@@ -160,9 +144,13 @@ fn file_of(answer: &Answer, table: &AnswerTable) -> String {
 /// The objects without an answer; the table says why.
 pub fn not_assessed(answers: &[Answer]) -> Option<String> {
     let silent: Vec<&Answer> = answers.iter().filter(|answer| !answer.is_answered()).collect();
-    let names: Vec<String> = silent.iter().map(|answer| answer.object.called()).collect();
-    let [some, all] = [pieces(silent), pieces(answers)].map(count);
-    (!names.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", listed(&names, NAMED)))
+    let [some, all] = [pieces(silent.iter().copied()), pieces(answers)].map(count);
+    (!silent.is_empty()).then(|| format!("Not assessed, {some} of {all}: {}.", named(silent, NAMED)))
+}
+
+/// The names of objects, and how many there are beyond the most.
+pub fn named<'a>(answers: impl IntoIterator<Item = &'a Answer>, most: usize) -> String {
+    listed(&answers.into_iter().map(|answer| answer.object.called()).collect::<Vec<_>>(), most)
 }
 
 fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
@@ -174,7 +162,8 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
         let words = format!("of {all} expected to overturn {when}{limits}{file}");
-        tiles.push(Tile::new(expected_of_list(answers), words));
+        let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
+        tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
@@ -192,18 +181,11 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
     tiles
 }
 
-/// How many of the objects of a list are to be expected to overturn.
-pub fn expected_of_list(rows: &[&Answer]) -> String {
-    let of_list = rows.first().and_then(|answer| answer.list.expected_number.value);
-    TWO_DIGITS.one(of_list.unwrap_or_else(|| number_of(rows)))
-}
-
 fn number_of(some: &[&Answer]) -> f64 {
     let number = |answer: &&Answer| Some(answer.object.count.unwrap_or(1.0) * answer.p.p_overturning.value?);
     some.iter().filter_map(number).sum()
 }
 
-/// What stands in a cell of an answer.
 type Cell = fn(&Answer) -> String;
 
 /// The columns behind the list's own; of those in the time of exposure there is an @.
@@ -217,7 +199,7 @@ const COLUMNS: [(&str, Cell); 20] = [
     ("before, %", |answer| of_before(answer, |before| OF_HUNDRED.value(before.p))),
     (OVERTURNS, |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
-    (LIMITS, limits),
+    (LIMITS, |answer| of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)),
     ("times as often", |answer| of_before(answer, Before::times)),
     ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
@@ -242,11 +224,9 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     let column = |cell: &dyn Fn(&Answer) -> String| answers.iter().map(|answer| cell(answer)).collect();
     let mut columns: Vec<(String, Vec<String>)> =
         vec![("object".to_string(), column(&|answer| answer.object.called()))];
-    for (heading, _) in answers.iter().flat_map(|answer| &answer.labels) {
-        let head = literal(heading);
-        if columns.iter().all(|(other, _)| *other != head) {
-            columns.push((head, column(&|answer| literal(answer.label(heading).unwrap_or_default()))));
-        }
+    for heading in headings(answers.iter().copied()) {
+        let label = |answer: &Answer| literal(answer.label(heading).unwrap_or_default());
+        columns.push((literal(heading), column(&label)));
     }
     let (labels, mut same) = (columns.len() - 1, Vec::new());
     let files = answers.first().map_or(0, |answer| answer.alternatives.len());
@@ -257,17 +237,16 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
         if files > 0 && *name == OVERTURNS {
             // A column and its limits for each file.
             for at in 0..files {
-                let file = &answers[0].alternatives[at].file;
-                let p = |answer: &Answer| answer.alternatives[at].p;
+                let file = literal(&answers[0].alternatives[at].file);
+                let p = |answer: &Answer| answer.alternatives[at].p.p_overturning;
                 columns.push((format!("{file}: {head}"), column(&|answer| OF_HUNDRED.value(p(answer)))));
                 columns.push((LIMITS.to_string(), column(&|answer| OF_HUNDRED.span(p(answer)))));
             }
         } else if (differ.len() > 1 || ALWAYS.contains(name)) && (files == 0 || *name != LIMITS) {
             columns.push((head, column(cell)));
         } else if !UNSAID.contains(name) {
-            same.extend(
-                differ.first().filter(|value| !value.is_empty()).map(|value| format!("{head} {value}")),
-            );
+            let value = differ.first().filter(|value| !value.is_empty());
+            same.extend(value.map(|value| format!("{head} {value}")));
         }
     }
     let same = (!same.is_empty()).then(|| format!("The same for all: {}.", same.join(", ")));
@@ -277,15 +256,15 @@ fn table_of(answers: &[&Answer], when: &str) -> (Table, Option<String>) {
     (Table { heads, rows, labels, ..Table::default() }, same)
 }
 
+/// Headings of the list's own columns.
+pub fn headings<'a>(answers: impl IntoIterator<Item = &'a Answer>) -> Vec<&'a str> {
+    let all = answers.into_iter().flat_map(|answer| &answer.labels).map(|(heading, _)| heading.as_str());
+    distinct(all.filter(|heading| *heading != "object"))
+}
+
 /// Where an object stands; nothing of one that is not assessed.
 pub fn place(answer: &Answer) -> String {
     if answer.is_answered() { answer.object.short_place() } else { String::new() }
-}
-
-/// A cell of the probabilities of an object that has them.
-fn of_states(answer: &Answer, cell: fn(&StateColumns) -> String) -> String {
-    let has_them = answer.is_answered() && answer.fragility.over.is_none();
-    if has_them { cell(&answer.p) } else { String::new() }
 }
 
 fn of_before(answer: &Answer, cell: fn(&Before) -> String) -> String {
@@ -297,18 +276,12 @@ fn of_fragility(Answer { fragility, .. }: &Answer, cell: usize) -> String {
     fragility.over.map_or(String::new(), |over| intensity_cells(over, &fragility.overturning)[cell].clone())
 }
 
-fn limits(answer: &Answer) -> String {
-    of_fragility(answer, 1) + &of_states(answer, |p| OF_HUNDRED.span(p.p_overturning))
-}
-
 /// The base with which an object meets the target, if there is one.
 pub fn base(answer: &Answer) -> String {
     match answer.rates.target.filter(|_| answer.is_answered()) {
         None => String::new(),
         Some(target) if answer.severity() <= target => "not needed".to_string(),
-        Some(_) => {
-            answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}"))
-        }
+        _ => answer.base(|side| side.value).map_or("none".to_string(), |base| base.replace(' ', "\u{a0}")),
     }
 }
 
@@ -316,10 +289,8 @@ pub fn base(answer: &Answer) -> String {
 pub fn doubts(answers: &[&Answer]) -> Vec<String> {
     let doubted =
         answers.iter().filter_map(|answer| Some((*answer, answer.uncertainty.warnings.as_deref()?)));
-    let mut lines = Vec::new();
-    for same in by(doubted, |(_, words)| words) {
-        let names: Vec<String> = same.iter().map(|(answer, _)| answer.object.called()).collect();
-        lines.push(format!("{}: {}", listed(&names, NAMED), literal(same[0].1)));
-    }
-    lines
+    let line = |same: &Vec<(&Answer, &str)>| {
+        format!("{}: {}", named(same.iter().map(|of| of.0), NAMED), literal(same[0].1))
+    };
+    by(doubted, |(_, words)| words).iter().map(line).collect()
 }

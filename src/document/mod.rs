@@ -87,8 +87,7 @@ pub struct Tile {
     pub words: String,
 }
 
-/// Rows of cells, of which the last may be missing; the first column has their names. A column in which
-/// nothing stands is not shown.
+/// Rows of cells, the first their name, the last may be missing. A column without cells is not shown.
 #[derive(Debug, Clone, Default)]
 pub struct Table {
     pub caption: String,
@@ -98,7 +97,6 @@ pub struct Table {
     pub labels: usize,
 }
 
-/// A column of a table that is shown.
 #[derive(Clone)]
 struct Column<'a> {
     head: &'a str,
@@ -148,7 +146,6 @@ fn is_number(cell: &str) -> bool {
 }
 
 impl Document {
-    /// The document of answers: of one object or of several.
     pub fn of_answers(table: &AnswerTable) -> Document {
         let mut sorted = table.clone();
         sorted.rows.sort_by(|a, b| b.severity().total_cmp(&a.severity()));
@@ -164,7 +161,6 @@ impl Document {
         document
     }
 
-    /// With a title, author, date and project of its own.
     pub fn signed(self, by: &PageArgs) -> Document {
         let PageArgs { title, author, date, project } = by;
         let byline = [project, author, date].into_iter().flatten().map(|text| literal(text));
@@ -176,10 +172,7 @@ impl Document {
         self.lead.len() + self.facts.len() + self.tables.len() + self.figures.len() > 0
     }
 
-    /// The figure that says most, by itself.
-    ///
-    /// # Errors
-    /// If there is none.
+    /// The figure that says most, by itself; an error if there is none.
     pub fn main_figure(&self) -> anyhow::Result<Figure> {
         let figure = self.figures.iter().find(|figure| !figure.panels.is_empty());
         figure.cloned().context("nothing to draw: expected an answer, or width and height of an object")

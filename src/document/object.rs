@@ -33,8 +33,7 @@ pub fn document(table: &AnswerTable, answer: &Answer, detail: &Detail) -> Docume
     }
 }
 
-/// The object as it is; the change that helps most, nothing that is only measured; and the motion that
-/// overturns it.
+/// The object as it is; the change that helps most, none that is only measured; the motion that overturns it.
 fn tiles(when: &str, detail: &Detail) -> Vec<Tile> {
     let p = |one: &Answer| one.p.p_overturning.value.unwrap_or(1.0);
     let as_it_is = detail.variants.first();
@@ -55,8 +54,7 @@ fn tiles(when: &str, detail: &Detail) -> Vec<Tile> {
     tiles
 }
 
-/// The answer, and what it is with one thing changed; under one motion there are no rates, over a peak
-/// intensities.
+/// The answer, and what it is with one thing changed; over a peak, intensities.
 fn numbers(when: &str, answer: &Answer, variants: &[Answer]) -> Table {
     let Answer { object, p, rates, .. } = answer;
     let (too_far, overturns) = (object.too_far(), "overturns".to_string());

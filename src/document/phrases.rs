@@ -41,12 +41,7 @@ impl ObjectColumns {
         self.centre_height_m.filter(|centre| (centre / half - 1.0).abs() > 1e-9)
     }
 
-    pub fn is_upstairs(&self) -> bool {
-        self.floor_level.is_some()
-    }
-
-    /// Where it stands: `on the ground`; `on floor 3 of 5`, as its list says, else `60 % up the building`;
-    /// with `at a wall`.
+    /// Where it stands: `on the ground`, `on floor 3 of 5 at a wall`, `60 % up the building`.
     pub fn place(&self) -> String {
         let floor = match (&self.floor, self.floor_level) {
             (_, None) => "on the ground".to_string(),
@@ -87,8 +82,8 @@ impl ObjectColumns {
 
     /// The name, and the floor if it stands on one.
     pub fn name_and_floor(&self) -> String {
-        let floor = self.is_upstairs().then(|| format!(", {}", self.short_place()));
-        self.called() + &floor.unwrap_or_default()
+        let floor = self.floor_level.map_or(String::new(), |_| format!(", {}", self.short_place()));
+        self.called() + &floor
     }
 
     pub fn title(&self) -> String {
@@ -96,7 +91,6 @@ impl ObjectColumns {
         self.called() + &size
     }
 
-    /// The limit state before overturning.
     pub fn too_far(&self) -> String {
         let share = PERCENT.one(self.limit_state.unwrap_or(LIMIT_STATE));
         format!("rocks beyond {share} of its slenderness, or overturns")
@@ -132,10 +126,6 @@ impl Answer {
         }
     }
 
-    fn rocks(&self) -> bool {
-        self.p.p_rocking.is_some_and(|p| p > 0.0)
-    }
-
     /// How likely it is to overturn, with limits: the sentence that begins with the object.
     pub fn how_often(&self) -> String {
         let (p, when) = (self.p.p_overturning, self.when().unwrap_or_default());
@@ -151,7 +141,7 @@ impl Answer {
         }
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
-            (None, _) if !self.rocks() => self.uplift(),
+            (None, _) if self.p.p_rocking <= Some(0.0) => self.uplift(),
             (None, _) => format!("overturns with a probability of {} {when}{limits}", PERCENT.value(p)),
             (_, Interval { value: Some(0.0), .. }) => {
                 "does not overturn: nothing of the hazard uplifts it".to_string()
@@ -167,8 +157,8 @@ impl Answer {
 
     /// Whether it rocks: on the ground by PGA over that of uplift.
     pub fn uplift(&self) -> String {
-        let friction = self.object.friction.filter(|_| !self.object.is_upstairs());
-        let rocks = if self.rocks() { "rocks" } else { "does not rock" };
+        let friction = self.object.friction.filter(|_| self.object.floor_level.is_none());
+        let rocks = if self.p.p_rocking > Some(0.0) { "rocks" } else { "does not rock" };
         match (self.tree.pga_m_s2.zip(friction), self.p.p_rocking) {
             _ if self.tree.pga_m_s2 == Some(0.0) || self.tree.pgv_m_s == Some(0.0) => {
                 "does not rock: nothing moves it".to_string()
@@ -183,8 +173,7 @@ impl Answer {
         }
     }
 
-    /// The base with which it meets its target, by the estimate and by the upper limit, or why none does;
-    /// `whose` names it among others: ` of rack`.
+    /// The base with which it meets its target, or why none does; `whose` names it among others: ` of rack`.
     pub fn about_target(&self, whose: &str) -> Option<String> {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
@@ -238,7 +227,6 @@ impl Answer {
         ))
     }
 
-    /// Why there is no answer.
     pub fn reason(&self) -> String {
         literal(self.uncertainty.warnings.as_deref().unwrap_or("no reason known"))
     }
@@ -251,12 +239,11 @@ impl Answer {
             MagnitudeSource::Usual => " (assumed: that of motions that overturn)",
             MagnitudeSource::Inferred => " (inferred from PGV/PGA)",
         };
-        let sd = magnitude_sd
-            .filter(|sd| *sd > 0.0)
-            .map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
+        let sd = magnitude_sd.filter(|sd| *sd > 0.0);
+        let sd = sd.map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
         let ratios = over_all([self]).filter_map(|answer| {
-            let over = answer.fragility.over.map(|over| format!(" over {}", over.name_and_unit().0));
-            let over = over.unwrap_or_default();
+            let over = answer.fragility.over;
+            let over = over.map_or(String::new(), |over| format!(" over {}", over.name_and_unit().0));
             Some(format!("{} s{over}", significant(answer.uncertainty.pgv_pga_s?, 2)))
         });
         let ratios = ratios.collect::<Vec<_>>().join(", ");
@@ -312,35 +299,31 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 /// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let worst = all[0];
-    let whose = if all.len() > 1 { format!(" of {}", worst.object.called()) } else { String::new() };
-    let beyond = worst.beyond_the_curve(hazard, &whose);
-    let valid = match all {
-        [one] => {
-            let friction = one.object.friction_needed().map(|friction| fixed(friction, 2));
-            friction.map(|friction| format!("Valid if friction is above {friction}; else it slides."))
-        }
-        _ => Some("With less friction than it needs, an object slides instead of rocking.".to_string()),
+    let (whose, alone) = match all {
+        [one] => (String::new(), Some(one)),
+        _ => (format!(" of {}", worst.object.called()), None),
     };
-    let mut upstairs = all.iter().map(|answer| &answer.object).filter(|object| object.is_upstairs());
-    let building = upstairs.clone().next().map(|_| {
-        let percent = upstairs.any(|object| object.floor.is_none() && object.floor_level < Some(1.0));
-        let percent = if percent { "; 60 % up is at 60 % of its height" } else { "" };
-        format!("The building is taken as linear{percent}.")
+    let friction = |one: &&Answer| Some(fixed(one.object.friction_needed()?, 2));
+    let valid = match alone.map(friction) {
+        None => "With less friction than it needs, an object slides instead of rocking.".to_string(),
+        Some(None) => String::new(),
+        Some(Some(friction)) => format!("Valid if friction is above {friction}; else it slides."),
+    };
+    let upstairs = || all.iter().map(|answer| &answer.object).filter(|object| object.floor_level.is_some());
+    let in_percent = upstairs().any(|object| object.floor.is_none() && object.floor_level < Some(1.0));
+    let percent = if in_percent { "; 60 % up is at 60 % of its height" } else { "" };
+    let building = upstairs().next().map(|_| format!(" The building is taken as linear{percent}."));
+    let valid = valid + &building.unwrap_or_default();
+    let lognormal = alone.and_then(|one| {
+        let Lognormal { beta, largest_error, .. } = one.fragility.overturning;
+        let [beta, error] = [beta?, largest_error?].map(|value| significant(value, 2));
+        Some(format!("Overturning is lognormal with beta {beta}, within {error}."))
     });
-    let valid: Vec<String> = [valid, building].into_iter().flatten().collect();
     let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
-    let lognormal = match all {
-        [Answer { fragility, .. }] => fragility.overturning.beta.zip(fragility.overturning.largest_error),
-        _ => None,
-    };
-    let lognormal = lognormal.map(|(beta, error)| {
-        let [beta, error] = [beta, error].map(|value| significant(value, 2));
-        format!("Overturning is lognormal with beta {beta}, within {error}.")
-    });
-    let uncertain =
-        [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all), lognormal, beyond];
-    let lines = uncertain.into_iter().chain([model, Some(valid.join(" "))]);
-    lines.flatten().filter(|line| !line.is_empty()).collect()
+    let beyond = worst.beyond_the_curve(hazard, &whose);
+    let uncertain = [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all)];
+    let others = [lognormal, beyond, model, Some(valid.trim().to_string())];
+    uncertain.into_iter().chain(others).flatten().filter(|line| !line.is_empty()).collect()
 }
 
 /// What else answers rest on, a line each: for who signs them.
@@ -352,19 +335,19 @@ pub fn assumptions(all: &[&Answer]) -> Vec<String> {
             [values().reduce(f64::min)?, values().reduce(f64::max)?].map(|of| significant(of, digits));
         Some(if low == high { low } else { format!("{low} to {high}") })
     };
-    let site = all[0]
-        .rates
-        .years
-        .map(|_| "The hazard is that of the ground for which its curve was made.".to_string());
+    let said = |is_so: bool, words: &str| is_so.then(|| words.to_string());
+    let site =
+        said(all[0].rates.years.is_some(), "The hazard is that of the ground for which its curve was made.");
     let building = span(|object| object.floor_period_s, 2).map(|periods| {
         format!(
             "Buildings: linear, first period {periods} s, as given or by ASCE 7 for 3.5 m a storey; torsion and \
              yielding are not counted."
         )
     });
-    let both = objects().any(|object| object.depth_m.is_some());
-    let both = both
-        .then(|| "What has a width and a depth may fall in both directions: the rates add up.".to_string());
+    let both = said(
+        objects().any(|object| object.depth_m.is_some()),
+        "What has a width and a depth may fall in both directions: the rates add up.",
+    );
     let eta = span(|object| object.eta, 2).map(|eta| {
         format!(
             "Restitution η, the angular velocity after an impact over that before: {eta}, with its scatter; by \
@@ -393,13 +376,14 @@ pub fn assumptions(all: &[&Answer]) -> Vec<String> {
 fn model_of_all(all: &[&Answer]) -> Option<String> {
     let models: BTreeSet<&str> = all.iter().filter_map(|answer| answer.object.model.as_deref()).collect();
     let (first, object) = (models.first()?, &all[0].object);
-    Some(match object.motions.filter(|_| models.len() > 1 && first.contains("surface")) {
-        Some(kind) => {
+    let surface = object.motions.filter(|_| models.len() > 1 && first.contains("surface"));
+    Some(surface.map_or_else(
+        || literal(object.model.as_deref().unwrap_or(first)),
+        |kind| {
             let motions = kind.description();
             format!("rockfrag's universal surface, calibrated to the simulated responses ({motions})")
-        }
-        None => literal(object.model.as_deref().unwrap_or(first)),
-    })
+        },
+    ))
 }
 
 /// The motions that codes design for and consider, by the curve: who knows the site sees a wrong unit or
@@ -416,11 +400,9 @@ fn usual_motion(hazard: Option<&Hazard>) -> String {
     format!("; {} {}", peak.name_and_unit().0, usual.join(", "))
 }
 
-/// What the limits cover.
 fn limits_cover(all: &[&Answer]) -> Option<String> {
     let sds = all.iter().flat_map(|answer| answer.uncertainty.source_sds());
     let sources: BTreeSet<UncertaintySource> = sds.map(|(source, _)| source).collect();
-    let names: Vec<&str> = sources.into_iter().map(|source| of_source(source)[0]).collect();
-    let names = (!names.is_empty()).then(|| names.join(", "))?;
-    Some(format!("The 95 % limits cover only the uncertainty of: {names}."))
+    let names = sources.into_iter().map(|source| of_source(source)[0]).collect::<Vec<_>>().join(", ");
+    (!names.is_empty()).then(|| format!("The 95 % limits cover only the uncertainty of: {names}."))
 }

@@ -5,13 +5,11 @@ use crate::chart::text::literal;
 use crate::inputs::{ColumnReading, Reading};
 use crate::number::{count, counted};
 
-/// A table a file, folded.
 pub fn section(readings: &[&Reading]) -> Document {
     let tables = readings.iter().map(|reading| table(reading)).collect();
     Document { title: "How the files were read".to_string(), tables, ..Document::default() }
 }
 
-/// A line a column.
 pub fn table(reading: &Reading) -> Table {
     let row = |ColumnReading { heading, meaning, unit, filled, first, last }: &ColumnReading| {
         let unit = unit.as_deref().unwrap_or_default();

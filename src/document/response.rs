@@ -7,7 +7,7 @@ use rockfrag_core::units::G_M_S2;
 use super::Document;
 use crate::chart::round;
 use crate::chart::text::{escape, file_words, literal, words};
-use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol};
 use crate::figures::common::called;
 use crate::figures::envelope;
 use crate::number;
@@ -37,13 +37,8 @@ impl Trace {
     /// The motion, and the structure or the block that rocks like it.
     fn title(&self) -> String {
         let TraceRow { motion_id, structure, p_rad_s, alpha_rad, eta, .. } = &self.0[0];
-        let structure = Structure {
-            name: structure.clone(),
-            p_rad_s: *p_rad_s,
-            alpha_rad: *alpha_rad,
-            eta: *eta,
-            rebound: None,
-        };
+        let (name, [p_rad_s, alpha_rad, eta]) = (structure.clone(), [*p_rad_s, *alpha_rad, *eta]);
+        let structure = Structure { name, p_rad_s, alpha_rad, eta, rebound: None };
         format!("Motion {}: {}", literal(motion_id), called(&structure))
     }
 
@@ -61,18 +56,16 @@ impl Trace {
         self.overturned_at().and(self.0.get(stood + 1)).map(|point| point.time_s)
     }
 
-    /// What came of it, in a sentence.
     fn sentence(&self) -> String {
         let impacts = number::counted(self.times(SolverEvent::Impact).len(), "impact");
         let most = self.0.iter().map(|point| point.theta_over_alpha.abs()).fold(0.0, f64::max);
-        let angle =
-            format!("its tipping angle of {}°", number::significant(self.0[0].alpha_rad.to_degrees(), 3));
+        let degrees = number::significant(self.0[0].alpha_rad.to_degrees(), 3);
+        let angle = format!("its tipping angle of {degrees}°");
         match (self.overturned_at(), self.times(SolverEvent::Uplift).first()) {
             (Some(at), _) => {
-                let [tipped, at] =
-                    [self.tipped_at().unwrap_or(at), at].map(|time_s| number::fixed(time_s, 1));
+                let [tips, lies] = [self.tipped_at().unwrap_or(at), at].map(|at| number::fixed(at, 1));
                 format!(
-                    "It overturns: it passes {angle} at {tipped} s and lies flat at {at} s, after {impacts}."
+                    "It overturns: it passes {angle} at {tips} s and lies flat at {lies} s, after {impacts}."
                 )
             }
             (None, Some(at)) => {
@@ -86,19 +79,16 @@ impl Trace {
     /// From when to when something happens, s.
     fn span(&self) -> Range {
         let end = self.0.last().map_or(0.0, |point| point.time_s);
-        let is_moving =
-            |point: &&TraceRow| point.solver_event.is_some() || point.theta_over_alpha.abs() > 1e-3;
-        match (self.0.iter().find(is_moving), self.0.iter().rfind(is_moving)) {
-            (Some(first), Some(last)) => {
-                Range { low: (first.time_s - AROUND_S).max(0.0), high: (last.time_s + AROUND_S).min(end) }
-            }
-            _ => Range { low: 0.0, high: end.min(10.0) },
+        let is_moving = |one: &&TraceRow| one.solver_event.is_some() || one.theta_over_alpha.abs() > 1e-3;
+        let moving = Range::over(self.0.iter().filter(is_moving).map(|point| point.time_s));
+        match moving.low <= moving.high {
+            true => Range { low: (moving.low - AROUND_S).max(0.0), high: (moving.high + AROUND_S).min(end) },
+            false => Range { low: 0.0, high: end.min(10.0) },
         }
     }
 }
 
-/// The rotation, the acceleration and the velocity of the ground, beside what moves; `id` is its own on the
-/// page.
+/// The rotation and the motion of the ground, beside what moves; `id` is its own on the page.
 pub fn figure(response: &Trace, id: usize) -> Figure {
     let samples: Vec<&TraceRow> = response.0.iter().filter(|point| point.solver_event.is_none()).collect();
     let dt_s = samples.get(1).map_or(0.01, |point| point.time_s - samples[0].time_s);
@@ -131,9 +121,7 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     ];
     for (moment, words) in [(response.tipped_at(), "tips"), (response.overturned_at(), "lies")] {
         let Some(x) = moment else { continue };
-        let words =
-            Words { x, y: most, text: words.to_string(), position: LabelPosition::Along, ink: Ink::Muted };
-        panels[0].add_upright(words, -most);
+        panels[0].add_upright(x, [-most, most], words.to_string(), LabelPosition::Along);
     }
     let [structure, motion] =
         [&response.0[0].structure, &response.0[0].motion_id].map(|name| file_words(name));
@@ -144,7 +132,6 @@ pub fn figure(response: &Trace, id: usize) -> Figure {
     ))
 }
 
-/// The figures of responses.
 pub fn figures(all: &[Trace]) -> Vec<Figure> {
     all.iter().enumerate().map(|(id, response)| figure(response, id)).collect()
 }
@@ -162,8 +149,7 @@ pub fn document(all: &[Trace]) -> Document {
     Document { title, lead: vec![sentence], figures: figures(all), ..Document::default() }
 }
 
-/// The block as it moves in real time, from a click on its button: a picture without any code. All blocks are
-/// drawn with the same diagonal.
+/// The block as it moves in real time, from a click on its button: a picture without any code.
 fn moving(response: &Trace, id: usize) -> String {
     let span = response.span();
     let seconds = span.high - span.low;

@@ -1,87 +1,64 @@
 //! Answers as people open them in a workbook: the list's own columns, then what was asked, with units.
 
-use polars_core::prelude::{Column, DataFrame};
-use rockfrag_core::statistics::Interval;
+use polars_core::prelude::{AnyValue, Column, DataFrame};
 
-use super::list::{base, place};
+use super::list::{base, headings, place};
 use crate::answer::Answer;
 use crate::chart::text::words;
 
-/// A column: numbers, or texts.
-enum Cells {
-    Numbers(fn(&Answer) -> Option<f64>),
-    Counts(fn(&Answer) -> Option<f64>),
-    Percent(fn(&Answer) -> Option<f64>),
-    Texts(fn(&Answer) -> String),
-}
+type Cell = fn(&Answer) -> AnyValue<'static>;
 
 /// The columns; of those in the time of exposure, or under the motion, there is an @.
-const COLUMNS: [(&str, Cells); 14] = [
-    ("width (m)", Cells::Numbers(|answer| answer.object.width_m)),
-    ("depth (m)", Cells::Numbers(|answer| answer.object.depth_m)),
-    ("height (m)", Cells::Numbers(|answer| answer.object.height_m)),
-    ("centre of mass (m)", Cells::Numbers(|answer| answer.object.centre_height_m)),
-    ("number", Cells::Counts(|answer| answer.object.count)),
-    ("place", Cells::Texts(|answer| plain(&place(answer)))),
-    ("overturns @ (%)", Cells::Percent(|answer| overturning(answer).value)),
-    ("lower 95 % limit (%)", Cells::Percent(|answer| overturning(answer).low)),
-    ("upper 95 % limit (%)", Cells::Percent(|answer| overturning(answer).high)),
-    ("once in (years)", Cells::Numbers(|answer| answer.rates.return_period_years.map(two_digits))),
-    ("rocks too far @ (%)", Cells::Percent(|answer| answer.p.p_failure.value)),
-    ("base that meets the target (m)", Cells::Texts(|answer| plain(&base(answer)).replace(" m", ""))),
-    ("friction needed", Cells::Numbers(|answer| answer.object.friction_needed().map(two_digits))),
-    (NOTES, Cells::Texts(|answer| answer.uncertainty.warnings.clone().unwrap_or_default())),
+const COLUMNS: [(&str, Cell); 14] = [
+    ("width (m)", |answer| answer.object.width_m.into()),
+    ("depth (m)", |answer| answer.object.depth_m.into()),
+    ("height (m)", |answer| answer.object.height_m.into()),
+    ("centre of mass (m)", |answer| answer.object.centre_height_m.into()),
+    ("number", |answer| answer.object.count.map(|count| count as i64).into()),
+    ("place", |answer| plain(place(answer))),
+    ("overturns @ (%)", |answer| percent(answer.p.p_overturning.value)),
+    ("lower 95 % limit (%)", |answer| percent(answer.p.p_overturning.low)),
+    ("upper 95 % limit (%)", |answer| percent(answer.p.p_overturning.high)),
+    ("once in (years)", |answer| two_digits(answer.rates.return_period_years)),
+    ("rocks too far @ (%)", |answer| percent(answer.p.p_failure.value)),
+    ("base that meets the target (m)", |answer| plain(base(answer).replace("\u{a0}m", ""))),
+    ("friction needed", |answer| two_digits(answer.object.friction_needed())),
+    ("doubts, or why it is not assessed", |answer| {
+        text(answer.uncertainty.warnings.as_deref().unwrap_or(""))
+    }),
 ];
-
-const NOTES: &str = "doubts, or why it is not assessed";
 
 /// A row an object, without columns in which nothing stands; results to two digits.
 pub fn sheet(rows: &[Answer]) -> anyhow::Result<DataFrame> {
     let when = rows.first().and_then(Answer::when).unwrap_or_default();
-    let name = |answer: &Answer| {
-        answer.object.name().map_or_else(|| words(&answer.object.called()), |name| name.to_string())
+    let column = |head: &str, cell: &dyn Fn(&Answer) -> AnyValue<'static>| {
+        Column::new(head.into(), rows.iter().map(cell).collect::<Vec<_>>())
     };
-    let mut columns = vec![texts("object", rows, &name)];
-    for (heading, _) in rows.iter().flat_map(|answer| &answer.labels) {
-        if columns.iter().all(|column| *column.name() != *heading) {
-            columns
-                .push(texts(heading, rows, &|answer| answer.label(heading).unwrap_or_default().to_string()));
-        }
+    let name = |answer: &Answer| answer.object.name().map_or_else(|| plain(answer.object.called()), text);
+    let mut columns = vec![column("object", &name)];
+    for heading in headings(rows) {
+        columns.push(column(heading, &|answer| text(answer.label(heading).unwrap_or_default())));
     }
-    for (name, cells) in &COLUMNS {
-        let head = name.replace('@', &when);
-        let numbers = |number: &dyn Fn(&Answer) -> Option<f64>| {
-            Column::new(head.as_str().into(), rows.iter().map(number).collect::<Vec<_>>())
-        };
-        columns.push(match cells {
-            Cells::Numbers(number) => numbers(number),
-            Cells::Counts(number) => {
-                let counts = rows.iter().map(|answer| number(answer).map(|count| count as i64));
-                Column::new(head.as_str().into(), counts.collect::<Vec<_>>())
-            }
-            Cells::Percent(p) => numbers(&|answer| p(answer).map(|p| two_digits(100.0 * p))),
-            Cells::Texts(cell) => texts(&head, rows, cell),
-        });
-    }
+    columns.extend(COLUMNS.iter().map(|(name, cell)| column(&name.replace('@', &when), cell)));
     let mut seen = std::collections::HashSet::new();
     columns.retain(|column| column.null_count() < rows.len() && seen.insert(column.name().clone()));
     Ok(DataFrame::new(rows.len(), columns)?)
 }
 
-fn texts(head: &str, rows: &[Answer], cell: &dyn Fn(&Answer) -> String) -> Column {
-    let cells = rows.iter().map(|answer| Some(cell(answer)).filter(|cell| !cell.is_empty()));
-    Column::new(head.into(), cells.collect::<Vec<_>>())
+fn text(cell: &str) -> AnyValue<'static> {
+    Some(cell)
+        .filter(|cell| !cell.is_empty())
+        .map_or(AnyValue::Null, |cell| AnyValue::StringOwned(cell.into()))
 }
 
-fn plain(marked: &str) -> String {
-    words(marked).replace('\u{a0}', " ")
+fn plain(marked: String) -> AnyValue<'static> {
+    text(&words(&marked).replace('\u{a0}', " "))
 }
 
-fn overturning(answer: &Answer) -> Interval<Option<f64>> {
-    answer.p.p_overturning
+fn percent(p: Option<f64>) -> AnyValue<'static> {
+    two_digits(p.map(|p| 100.0 * p))
 }
 
-/// What is written with two digits.
-fn two_digits(value: f64) -> f64 {
-    format!("{value:.1e}").parse().unwrap_or(value)
+fn two_digits(value: Option<f64>) -> AnyValue<'static> {
+    value.map(|value| format!("{value:.1e}").parse().unwrap_or(value)).into()
 }

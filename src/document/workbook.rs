@@ -3,7 +3,6 @@
 use polars_core::prelude::{AnyValue, DataFrame};
 use rust_xlsxwriter::{DocProperties, ExcelDateTime, Format, Workbook};
 
-/// Writes a frame as a workbook with one sheet.
 pub fn workbook(frame: &DataFrame) -> anyhow::Result<Vec<u8>> {
     let mut book = Workbook::new();
     // What is the same is the same whenever it is written.

@@ -8,6 +8,7 @@ use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns, over_all};
+use crate::chart::text::literal;
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
@@ -25,7 +26,7 @@ const CURVES: usize = 6;
 pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> Figure {
     let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
     let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
-    panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, &answer.object, drawn)));
+    panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, answer, drawn)));
     if variants.len() > 1 {
         panels.push(variants_panel(variants, answer));
     }
@@ -41,8 +42,8 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
 /// figure for each peak.
 pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
     if let [answer] = answers {
-        let curves = over_all([*answer])
-            .filter_map(|one| Some(fragility_panel(one.fragility.over?, &one.points, &answer.object, None)));
+        let curve = |one: &Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
+        let curves = over_all([*answer]).filter_map(curve);
         let panels = sketch(&answer.object).into_iter().chain(curves).collect();
         return vec![Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels)];
     }
@@ -54,11 +55,11 @@ pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
 /// Overturning of several objects over one peak.
 fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
     let over = answers.iter().find_map(|answer| answer.fragility.over)?;
-    let mut layers = Vec::new();
-    for (number, answer) in answers.iter().take(CURVES).enumerate() {
+    let layer = |(number, answer): (usize, &&Answer)| {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
-        layers.push(Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks));
-    }
+        Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks)
+    };
+    let layers: Vec<Layer> = answers.iter().take(CURVES).enumerate().map(layer).collect();
     let (what, averaged) = (over.name_and_unit().0, averaged(over));
     let (drawn, all) = (layers.len(), counted(answers.len(), "object"));
     let caption = format!("Overturning under a motion of this {what}, {averaged}: {drawn} of {all}.");
@@ -75,16 +76,21 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let rows = drawn.iter().map(|answer| {
         let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
         let (name, p) = (answer.object.called(), answer.p.p_overturning);
-        if !answer.alternatives.is_empty() {
-            let of_files = answer.alternatives.iter().enumerate();
-            let values = of_files.map(|(at, one)| (one.p, Ink::Data(at), &*one.file)).collect();
-            return ProbabilityRow { name, values, words: String::new() };
-        }
-        let Some(before) = &answer.before else {
-            return ProbabilityRow::new(&name, Ink::Step(band), bands[band], p);
+        let others = answer.alternatives.iter().zip(0..);
+        let mut values: Vec<_> =
+            others.map(|(one, at)| (one.p.p_overturning, Ink::Data(at), literal(&one.file))).collect();
+        let words = match &answer.before {
+            _ if !values.is_empty() => String::new(),
+            Some(before) => {
+                values.push((before.p, Ink::Muted, "before".to_string()));
+                values.push((p, Ink::Data(1), "after".to_string()));
+                before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()))
+            }
+            None => {
+                values.push((p, Ink::Step(band), bands[band].to_string()));
+                PERCENT.value(p)
+            }
         };
-        let values = vec![(before.p, Ink::Muted, "before"), (p, Ink::Data(1), "after")];
-        let words = before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()));
         ProbabilityRow { name, values, words }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
@@ -98,8 +104,7 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
 }
 
-/// The object as it stands over the side to which it falls first, and as it is about to tip; none without
-/// width and height.
+/// The object as it stands over the side to which it falls first, and as it is about to tip.
 fn sketch(object: &ObjectColumns) -> Option<Panel> {
     let (width, height, alpha_rad) = (object.width_m?, object.height_m?, object.alpha_rad?);
     let centre_height = object.centre_height_m.unwrap_or(0.5 * height);
@@ -167,15 +172,10 @@ fn curves_panel(title: &str, over: Peak, layers: Vec<Layer>) -> Panel {
 }
 
 /// The limit states of one object, with the usual intensities of a site.
-fn fragility_panel(
-    over: Peak,
-    points: &[FragilityPoint],
-    object: &ObjectColumns,
-    drawn: Option<&AtSite>,
-) -> Panel {
-    let too_far = object.too_far().replace("its slenderness", "*α*");
-    let failure = curve(over, points, LimitState::Failure, false);
-    let overturning = curve(over, points, LimitState::Overturning, true);
+fn fragility_panel(over: Peak, points: &[FragilityPoint], of: &Answer, drawn: Option<&AtSite>) -> Panel {
+    let too_far = of.object.too_far().replace("its slenderness", "*α*");
+    let [failure, overturning] = [(LimitState::Failure, false), (LimitState::Overturning, true)]
+        .map(|(state, has_limits)| curve(over, points, state, has_limits));
     let layers = vec![
         Layer::line(&too_far, Ink::Data(0), failure),
         Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
@@ -183,15 +183,14 @@ fn fragility_panel(
     let mut panel = curves_panel(&format!("Fragility over {}", over.name_and_unit().0), over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
     for (years, intensity) in drawn.iter().flat_map(|drawn| drawn.usual()) {
-        panel.add_upright(once_in(years, intensity, 100.0), 0.0);
+        panel.add_upright(intensity, [0.0, 100.0], in_years(years), LabelPosition::Along);
     }
     let (what, place) = (over.name_and_unit().0, if drawn.is_some() { " at the site" } else { "" });
     panel.explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(over)))
 }
 
-fn once_in(years: f64, x: f64, y: f64) -> Words {
-    let text = format!("{} years", count(years as usize));
-    Words { x, y, text, position: LabelPosition::Along, ink: Ink::Muted }
+fn in_years(years: f64) -> String {
+    format!("{} years", count(years as usize))
 }
 
 /// Over what a fragility is averaged.
@@ -201,9 +200,10 @@ fn averaged(over: Peak) -> String {
 }
 
 fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
-    let rows = variants.iter().enumerate().map(|(place, one)| {
-        let ink = if place == 0 { Ink::Data(1) } else { Ink::Data(0) };
-        ProbabilityRow::new(one.variant.as_deref().unwrap_or_default(), ink, "", one.p.p_overturning)
+    let rows = variants.iter().enumerate().map(|(place, Answer { variant, p, .. })| {
+        let (ink, p) = (Ink::Data(usize::from(place == 0)), p.p_overturning);
+        let name = variant.clone().unwrap_or_default();
+        ProbabilityRow { name, values: vec![(p, ink, String::new())], words: PERCENT.value(p) }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let when = answer.when().unwrap_or_default();
@@ -217,10 +217,10 @@ fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
 fn hazard_panel(drawn: &AtSite) -> Panel {
     let (what, unit, _) = drawn.peak.name_and_unit();
     let [_, (_, lowest)] = drawn.curve.ends();
-    let mut panel =
-        Panel::new("Hazard", peak_axis(drawn.peak), Axis::log("exceeded, times a year"), Vec::new());
+    let y = Axis::log("exceeded, times a year");
+    let mut panel = Panel::new("Hazard", peak_axis(drawn.peak), y, Vec::new());
     for (years, intensity) in drawn.usual() {
-        panel.add_upright(once_in(years, intensity, 1.0 / years), lowest);
+        panel.add_upright(intensity, [lowest, 1.0 / years], in_years(years), LabelPosition::Along);
     }
     let dots = drawn.usual().map(|(years, intensity)| Mark::new(intensity, 1.0 / years));
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
@@ -229,8 +229,7 @@ fn hazard_panel(drawn: &AtSite) -> Panel {
     panel.explained(format!("How often {what} is exceeded at the site."))
 }
 
-/// The share of the rate of overturning by intensity, as a density: an area of the same size is the same
-/// share.
+/// The share of the rate of overturning by intensity, as a density.
 fn shares(drawn: &AtSite) -> Option<Panel> {
     let (what, unit, _) = drawn.peak.name_and_unit();
     let parts = &drawn.parts;
@@ -272,26 +271,17 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
 }
 
-/// Words at the right edge of each row.
 fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
     let place = |(row, text)| Words { x: 0.0, y: row, text, position: LabelPosition::Margin, ink: Ink::Text };
     (0_i32..).map(f64::from).zip(texts).map(place).collect()
 }
 
-/// A row of a panel of probabilities.
-struct ProbabilityRow<'a> {
+struct ProbabilityRow {
     name: String,
     /// One below the other, each in a colour that the legend names.
-    values: Vec<(Interval<Option<f64>>, Ink, &'a str)>,
+    values: Vec<(Interval<Option<f64>>, Ink, String)>,
     /// At the right edge.
     words: String,
-}
-
-impl<'a> ProbabilityRow<'a> {
-    /// A row of one probability, with its value at its end.
-    fn new(name: &str, ink: Ink, label: &'a str, p: Interval<Option<f64>>) -> ProbabilityRow<'a> {
-        ProbabilityRow { name: name.to_string(), values: vec![(p, ink, label)], words: PERCENT.value(p) }
-    }
 }
 
 /// Percents above which an axis is linear.
@@ -319,9 +309,8 @@ fn probabilities(title: &str, rows: &[ProbabilityRow], target: Option<f64>) -> P
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));
     let mut panel = Panel::new(title, x, names, Vec::new());
     if let Some(target) = target {
-        let (x, text) = (100.0 * target, format!("target {}", PERCENT.one(target)));
-        let words = Words { x, y: -0.5, text, position: LabelPosition::Above, ink: Ink::Muted };
-        panel.add_upright(words, rows.len() as f64 - 0.5);
+        let (ends, text) = ([rows.len() as f64 - 0.5, -0.5], format!("target {}", PERCENT.one(target)));
+        panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);
     }
     panel.layers.extend(layers);
     panel.words.extend(in_margin(rows.iter().map(|row| row.words.clone())));

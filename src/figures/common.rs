@@ -29,25 +29,21 @@ pub struct Fits {
 }
 
 impl Fits {
-    /// The calibration of overturning with some cases.
     pub fn calibration(&self, cases: &Cases) -> Option<&Calibration> {
         self.calibrations.iter().find(|row| row.group() == cases.group())
     }
 
-    /// The curve of overturning of some cases over these measures.
     pub fn curve(&self, cases: &Cases, predictors: &Predictors) -> Option<&CurveFit> {
         let mut fits = self.curves.iter().filter(|fit| fit.group() == cases.group());
         fits.find(|fit| fit.predictors() == *predictors)
     }
 
-    /// The regressions of the demand of some cases, of one form.
     pub fn demand(&self, cases: &Cases, model: DemandModel) -> impl Iterator<Item = &DemandFit> {
         let its = self.demand.iter().filter(|fit| fit.group() == cases.group());
         its.filter(move |fit| fit.model == model && !fit.coefficients.is_empty())
     }
 }
 
-/// Letters of a name in a figure.
 const LONGEST_NAME: usize = 200;
 
 /// The name of a structure; without one, the block that rocks like it. Marked text.
@@ -80,7 +76,6 @@ pub fn title(structure: &str, suite: Option<&str>) -> String {
     synthetic.map_or(structure.to_string(), |suite| format!("{structure}, {}", motions_of(suite)))
 }
 
-/// The place of a suite among others.
 pub fn order(cases: &Cases) -> usize {
     let suite = cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
     suite.map_or(usize::MAX, |suite| suite as usize)
@@ -117,12 +112,10 @@ pub fn short_label(measure: &Measure) -> String {
     }
 }
 
-/// Short names of a measure or two, marked text.
 pub fn short_labels(predictors: &Predictors) -> String {
     predictors.measures().map(short_label).collect::<Vec<_>>().join(", ")
 }
 
-/// Label of a measure by which motions are scaled.
 pub fn scaled_label(measure: ScaledMeasure) -> &'static str {
     match measure {
         ScaledMeasure::Scale => "factor on the motion",
@@ -149,6 +142,11 @@ pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn
         }
     }
     groups
+}
+
+/// Each row once.
+pub fn distinct<R: Copy + PartialEq>(rows: impl IntoIterator<Item = R>) -> Vec<R> {
+    by(rows, |row| row).into_iter().map(|same| same[0]).collect()
 }
 
 /// The cases that rocked, and whether they overturned.

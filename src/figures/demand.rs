@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 
 use nalgebra::Vector3;
 use rockfrag_core::fragility::{
-    Case, Cases, DemandFit, DemandModel, Group, Measure, PLANE, ln_median_demand,
+    Case, Cases, CurveFit, DemandFit, DemandModel, Group, Measure, PLANE, ln_median_demand,
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, by, compare, demands, label, name, short_label, short_labels};
+use super::common::{DEMAND, Fits, by, compare, demands, estimate, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
 use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number::{self, PERCENT};
@@ -38,8 +38,7 @@ fn period(cases: &Cases, row: usize) -> Option<f64> {
     Some(TAU / (cases.all[row].measures.im1? * cases.structure.p_rad_s))
 }
 
-/// Figures 3 and 4: what came of the motions over velocity and period of their pulses, with the line of
-/// Eq. 5; and the demand over each of the two. A column a group.
+/// Figures 3 and 4: outcomes over velocity and period of the pulses, with Eq. 5; the demand over each.
 pub fn demand(groups: &[&Cases]) -> Figure {
     let is_pulse = |cases: &&&Cases| cases.suite.as_deref() == Some(Suite::Pulse.into());
     // PGA Tp / Vp of the pulses.
@@ -53,11 +52,10 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     let c = Interval { value, low, high };
     let pulses = groups.iter().filter(|cases| cases.all.iter().any(|case| case.measures.im1.is_some()));
     let planes = pulses.clone().map(|cases| outcomes(cases, c));
-    let over_velocity = groups
-        .iter()
-        .map(|cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0)));
+    let of_velocity =
+        |cases: &&Cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0));
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
-    let panels: Vec<Panel> = planes.chain(over_velocity).chain(over_period).collect();
+    let panels: Vec<Panel> = planes.chain(groups.iter().map(of_velocity)).chain(over_period).collect();
     let mut caption = format!(
         "Outcomes over velocity and period of the pulse, and demand over each, from {LEAST} on; in strips \
          below and above, motions that do not rock the structure and that overturn it."
@@ -105,11 +103,8 @@ fn outcomes(cases: &Cases, c: Interval) -> Panel {
         };
         let [below, above] = [true, false].map(at_rest);
         caption += &format!(" Of those below the line {below} do not rock it, of those above {above}.");
-        let line = [periods.low, periods.high].map(|x| Mark {
-            low: limit(x, c.high),
-            high: limit(x, c.low),
-            ..Mark::new(x, limit(x, c.value))
-        });
+        let limits = |x| Interval { value: limit(x, c.value), low: limit(x, c.high), high: limit(x, c.low) };
+        let line = [periods.low, periods.high].map(|x| estimate(x, limits(x)));
         layers.push(Layer::line("Eq. 5 for the pulse alone, 90 % of pulses", Ink::Text, line));
     }
     let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
@@ -133,12 +128,9 @@ fn demand_over(cases: &Cases, x: &str, value: impl Fn(usize) -> Option<f64>) -> 
         (&layers[2], last, fallen_words * most, LabelPosition::Left),
     ];
     let words = words.into_iter().filter(|(layer, ..)| !layer.marks.is_empty());
-    let words = words.map(|(layer, x, y, position)| Words {
-        x,
-        y,
-        text: layer.name.clone(),
-        position,
-        ink: layer.ink,
+    let words = words.map(|(layer, x, y, position)| {
+        let (text, ink) = (layer.name.clone(), layer.ink);
+        Words { x, y, text, position, ink }
     });
     let (words, title) = (words.collect(), format!("{}, over {}", name(cases), symbol));
     let y = Axis::log(DEMAND).over(0.11 * LEAST, 1.5 * fallen_words * most);
@@ -150,8 +142,7 @@ fn zeta(fit: &DemandFit) -> Option<f64> {
     Some(fit.beta? / fit.coefficients[1].abs())
 }
 
-/// Figure 7: the demand in safe rocking over each measure, with its regression, ln EDP = ln a + b ln IM
-/// (Eq. 16), if there is one; nothing without any regression.
+/// Figure 7: the demand in safe rocking over each measure, with its regression (Eq. 16) if there is one.
 pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
     let laws = fits.demand(cases, DemandModel::Univariate);
     let laws: Vec<&DemandFit> = laws.filter(|fit| Measure::SCALAR.contains(&fit.im_x)).collect();
@@ -186,35 +177,28 @@ pub fn regressions(fits: &Fits, cases: &Cases) -> Figure {
         .explained(compare(&caption, "Figure 7"))
 }
 
-/// What a caption says of rotations below those of the fits.
 fn of_floor(fits: &Fits) -> String {
     let floor = number::significant(fits.rotation_floor, 1);
     format!("Rotations are {floor} rad or more (thin line), as in the fits.")
 }
 
-/// Figure 8: R2, beta and zeta of the regressions of each group over all cases, and how well its curves of
-/// overturning predict held-out cases.
+/// Figure 8: R2, beta and zeta of the regressions, and how well curves of overturning predict held-out cases.
 pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     let laws = fits.demand.iter().filter(|fit| fit.r2.is_some());
-    let rows = |value: fn(&DemandFit) -> Option<f64>| {
-        let all = laws.clone().map(|fit| (fit.group(), row(fit), value(fit)));
-        all.collect::<Vec<Quality>>()
+    let rows = |value: fn(&DemandFit) -> Option<f64>| -> Vec<Quality> {
+        laws.clone().map(|fit| (fit.group(), row(fit), value(fit))).collect()
     };
     let from_zero = |value: fn(&DemandFit) -> Option<f64>, label: &str| {
         let most = laws.clone().filter_map(value).fold(0.0, f64::max);
         dots(rows(value), Axis::linear(label).over(-0.03 * most, 1.08 * most), groups)
     };
-    let scores = fits.curves.iter();
-    let scores = scores.map(|fit| (fit.group(), short_labels(&fit.predictors()), fit.held_out_log_score));
+    let scored = |fit| (CurveFit::group(fit), short_labels(&fit.predictors()), fit.held_out_log_score);
+    let scores = Axis::linear("log score of overturning on held-out cases (more is better)");
     let panels = [
         from_zero(|fit| fit.r2, "*R*^{2} (more is better)"),
         from_zero(|fit| fit.beta, "*β* (less is better)"),
         dots(rows(zeta), Axis::log("|*ζ*| = *β* / |*b*| (less is better)"), groups),
-        dots(
-            scores.collect(),
-            Axis::linear("log score of overturning on held-out cases (more is better)"),
-            groups,
-        ),
+        dots(fits.curves.iter().map(scored).collect(), scores, groups),
     ];
     let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit. Of \
                    two measures, *b* is that of IM4; of two planes, *R*^{2} is about the own side's mean.";
@@ -222,7 +206,6 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     Figure::new("quality", "Quality of the measures", 2, 0.0, panels).explained(compare(caption, "Figure 8"))
 }
 
-/// The row of a regression.
 fn row(fit: &DemandFit) -> String {
     match (fit.range_low, fit.range_high) {
         (None, None) => short_labels(&fit.predictors()),
@@ -250,8 +233,7 @@ fn dots(all: Vec<Quality>, x: Axis, groups: &[&Cases]) -> Option<Panel> {
     (!layers.is_empty()).then(|| Panel::new("", x, Axis::names(names), layers))
 }
 
-/// Figure 9: the demand in safe rocking and its two planes (Eqs. 17 and 18, Table II), seen along the line in
-/// which they meet; one panel a group.
+/// Figure 9: the demand and its two planes (Eqs. 17 and 18), seen along the line in which they meet.
 pub fn planes(fits: &Fits, groups: &[&Cases]) -> Figure {
     let mut panels = Vec::new();
     for cases in groups {
@@ -301,8 +283,7 @@ fn planes_panel(fits: &Fits, cases: &Cases, transition: f64, planes: [Vector3<f6
     Panel::new(&name(cases), x, y, layers)
 }
 
-/// Returns the directions to the right and upwards in a view along the line in which the planes meet; of
-/// parallel planes, which meet nowhere, along ln IM3.
+/// To the right and upwards in a view along the line where the planes meet; of parallel ones along ln IM3.
 fn edge_on(planes: [Vector3<f64>; 2]) -> [Vector3<f64>; 2] {
     let [first, second] = planes.map(|plane| Vector3::new(plane.y, plane.z, -1.0));
     let along = unit(first.cross(&second));

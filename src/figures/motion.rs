@@ -17,8 +17,7 @@ const UNITS: [&str; 2] = ["*a* (m/s^{2})", "*v* (m/s)"];
 /// Free rocking that Figure 5 shows, in 1 / p.
 const TAIL: f64 = 5.0;
 
-/// Figure 1: acceleration and velocity of the coherent pulse, the high frequencies and the whole motion; of a
-/// combined motion that has its pulse beside it, else of any.
+/// Figure 1: acceleration and velocity of a combined motion that has its pulse beside it, and of its parts.
 pub fn motion(motions: &[MotionRow]) -> Figure {
     let combined = motions.iter().find(|whole| is_of(whole, Suite::Csgm) && pulse(whole, motions).is_some());
     let Some(whole) = combined.or(motions.first()) else { return Figure::default() };
@@ -54,7 +53,6 @@ fn is_of(motion: &MotionRow, suite: Suite) -> bool {
     motion.suite.as_deref() == Some(suite.into())
 }
 
-/// The pulse of a combined motion.
 fn pulse<'a>(whole: &MotionRow, motions: &'a [MotionRow]) -> Option<&'a MotionRow> {
     motions.iter().find(|other| {
         let is_same = (other.mw, other.re_km, other.tp_s) == (whole.mw, whole.re_km, whole.tp_s);
@@ -69,8 +67,7 @@ fn words(motion: &MotionRow) -> String {
     }
 }
 
-/// Figure 5: the rotations of two structures in their own units and in dimensionless ones, under the motion
-/// in which the first rocks furthest without overturning; if there are such.
+/// Figure 5: the rotations of two structures, under the motion in which the first rocks furthest and stands.
 pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     let mut structures = groups.iter().map(|cases| &cases.structure);
     let first = structures.next()?;
@@ -109,7 +106,6 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     Some(figure.explained(compare(&caption, "Figure 5")))
 }
 
-/// The demand of a motion in safe rocking.
 fn safe_demand(structure: &Structure, motion: &MotionRow) -> Option<f64> {
     let record = Record::new(&motion.acceleration_m_s2, motion.dt_s).ok()?;
     simulate(structure, &record).outcome.demand().filter(|demand| *demand > 0.0)

@@ -26,8 +26,7 @@ const CONFIDENCE: f64 = 0.95;
 const LEVELS: [(f64, Dash); 4] =
     [(0.02, Dash::Short), (0.1, Dash::Mixed), (0.5, Dash::Solid), (0.9, Dash::Long)];
 
-/// Figure 10: probability of exceeding the limit state in safe rocking by two measures and by one; a panel a
-/// group.
+/// Figure 10: probability of exceeding the limit state in safe rocking; a panel a group.
 pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
     let panels = groups.iter().map(|cases| {
         // Structures of one suite have curves at the same IM3.
@@ -94,7 +93,6 @@ fn curve(
     Layer::new(name, ink, MarkStyle::Line(dash), marks)
 }
 
-/// What the captions of Figures 11 and 12 say of curves.
 const CURVES: &str = "*μ* = ln *θ*, *θ* the median, *β* the dispersion (where *P*_{ro} falls, of the inverse \
                       measure). Curves that fall with a measure of strength have the wrong sign and are not \
                       drawn. Dots: observed fractions. Bands and bars: 95 %.";
@@ -119,24 +117,19 @@ pub fn hybrids(fits: &Fits, groups: &[&Cases]) -> Figure {
         .explained(compare(&caption, "Figure 12"))
 }
 
-/// The measures of the curves of some cases, in the order in which they first come.
-fn predictors(fits: &Fits, groups: &[&Cases]) -> Vec<Predictors> {
-    let its = fits.curves.iter().filter(|fit| groups.iter().any(|cases| cases.group() == fit.group()));
-    by(its, CurveFit::predictors).into_iter().map(|fits| fits[0].predictors()).collect()
-}
-
 /// P_ro over measures that are wanted, a panel for each structure and, as a hybrid is of one fit, its suites.
 fn over(fits: &Fits, groups: &[&Cases], is_wanted: fn(&Predictors) -> bool) -> Vec<Panel> {
-    let structures = by(groups.iter().copied(), |cases| &cases.structure.name).into_iter();
-    let panels = structures.flat_map(|groups| {
-        let wanted = predictors(fits, &groups).into_iter().filter(is_wanted);
-        let panels = wanted.flat_map(|predictors| {
+    let mut panels = Vec::new();
+    for groups in by(groups.iter().copied(), |cases| &cases.structure.name) {
+        // In the order in which they first come.
+        let its = fits.curves.iter().filter(|fit| groups.iter().any(|cases| cases.group() == fit.group()));
+        let measures = by(its, CurveFit::predictors).into_iter().map(|fits| fits[0].predictors());
+        for predictors in measures.filter(is_wanted) {
             let each = if predictors.im_y.is_some() { 1 } else { groups.len() };
-            groups.chunks(each).map(|part| over_measure(fits, part, &predictors)).collect::<Vec<_>>()
-        });
-        panels.collect::<Vec<_>>()
-    });
-    panels.collect()
+            panels.extend(groups.chunks(each).map(|part| over_measure(fits, part, &predictors)));
+        }
+    }
+    panels
 }
 
 /// The curves of suites of a structure, with their parameters in the corner that the first leaves free.
@@ -148,14 +141,11 @@ fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Pane
     };
     let title = format!("{of}: {}", short_labels(predictors));
     let mut panel = Panel::new(&title, Axis::log(&x), Axis::fraction("*P*_{ro}"), Vec::new());
-    let mut words = Vec::new();
-    for (line, cases) in groups.iter().enumerate() {
-        let (ink, series) =
-            (Ink::Data(order(cases)), motions_of(cases.suite.as_deref().unwrap_or("motions")));
-        let fit = fits.curve(cases, predictors);
-        let text = format!("{series}: {}", fit.map_or("no curve".to_string(), parameters));
-        let y = 0.95 - 0.1 * line as f64;
-        words.push(Words { x: f64::NAN, y, text, position: LabelPosition::Right, ink });
+    let mut texts = Vec::new();
+    for cases in groups {
+        let (ink, fit) = (Ink::Data(order(cases)), fits.curve(cases, predictors));
+        let series = motions_of(cases.suite.as_deref().unwrap_or("motions"));
+        texts.push((ink, format!("{series}: {}", fit.map_or("no curve".to_string(), parameters))));
         let layers = fit.map_or(Vec::new(), |fit| overturned(fit, cases));
         let coloured = |layer| Layer { ink, series: series.clone(), is_listed: false, ..layer };
         panel.layers.extend(layers.into_iter().map(coloured));
@@ -165,8 +155,9 @@ fn over_measure(fits: &Fits, groups: &[&Cases], predictors: &Predictors) -> Pane
     let falls = first.is_some_and(|fit| beta(&fit.coefficients).value < 0.0);
     let (x, position) =
         if falls { (span.high, LabelPosition::Left) } else { (span.low, LabelPosition::Right) };
-    panel.words = words.into_iter().map(|words| Words { x, position, ..words }).collect();
-    panel
+    let heights = (0..).map(|line| 0.95 - 0.1 * f64::from(line));
+    let words = texts.into_iter().zip(heights).map(|((ink, text), y)| Words { x, y, text, position, ink });
+    Panel { words: words.collect(), ..panel }
 }
 
 /// The hybrid measure of a fit (Eq. 23).
@@ -177,7 +168,6 @@ fn hybrid(fit: &CurveFit) -> String {
     format!("({})^{{{x}}} ({})^{{{y}}}", names[0], names[1])
 }
 
-/// The parameters of a curve.
 fn parameters(fit: &CurveFit) -> String {
     if fit.status == FitStatus::WrongSign {
         return "wrong sign".to_string();

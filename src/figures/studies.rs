@@ -15,8 +15,7 @@ const PANELS: usize = 24;
 const LEVELS: usize = 15;
 const STEPS: usize = 100;
 
-/// Incremental dynamic analyses: the distribution of the lowest overturning intensities, and the share that
-/// overturns at each level.
+/// Incremental dynamic analyses: the lowest overturning intensities, and the share overturned at each level.
 pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) -> Figure {
     let mut levels: Vec<f64> = stripes.iter().map(|stripe| stripe.intensity).collect();
     levels.sort_unstable_by(f64::total_cmp);
@@ -59,8 +58,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     Panel::new(&title(&literal(&fit.structure), fit.suite.as_deref()), x, y, layers)
 }
 
-/// Validation: mean predicted probabilities against observed shares in bins; a panel a structure and suite, a
-/// series an event and model.
+/// Validation in bins: a panel a structure and suite, a series an event and model.
 pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let mut panels = Vec::new();
     let name = |bin: &ReliabilityBin| title(&literal(&bin.structure), bin.suite.as_deref());

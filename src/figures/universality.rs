@@ -15,7 +15,6 @@ const STEPS: usize = 60;
 /// Slenderness (rad) at which the colour changes.
 const SLENDERNESS: [f64; 2] = [0.15, 0.3];
 
-/// The measure of a case.
 type Over = fn(&Case) -> Option<f64>;
 
 /// A lognormal curve (Eq. 20) over some measure, and the range of its cases.
@@ -49,8 +48,7 @@ impl<'a> Curve<'a> {
     }
 }
 
-/// Curves of P_ro of all structures over PGV, IM5 and the hybrid measure of the paper's exponent; a row a
-/// suite of ten curves or more.
+/// Curves of P_ro over PGV, IM5 and the hybrid measure of the paper's exponent; a row a suite of ten or more.
 pub fn universality(groups: &[Cases]) -> Figure {
     let hybrid = format!("hybrid of IM4 and 1/IM3, *λ* = {EXAMPLE_LAMBDA}");
     let measures: [(&str, Over); 3] = [

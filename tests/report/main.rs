@@ -45,15 +45,10 @@ fn each_figure_is_drawn_and_its_table_has_the_numbers() {
 #[test]
 fn values_stand_where_the_axes_say() {
     let (x, y) = (Axis::linear("x").over(0.0, 10.0), Axis::log("y").over(1.0, 100.0));
-    let panel = Panel {
-        x,
-        y,
-        layers: vec![Layer::points("", Ink::Data(0), Symbol::Dot, [Mark::new(5.0, 10.0)])],
-        ..Default::default()
-    };
-    let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
+    let panel =
+        Panel::new("", x, y, vec![Layer::points("", Ink::Data(0), Symbol::Dot, [Mark::new(5.0, 10.0)])]);
     // 30 and half of 510.2 - 30 - 12 points, 16 and half of 100.
-    assert!(svg(&figure).contains("M264.1 66h0"));
+    assert!(svg(&Figure::new("", "", 1, 100.0, vec![panel])).contains("M264.1 66h0"));
 }
 
 #[test]
@@ -190,9 +185,8 @@ fn values_beyond_all_axes_are_left_out() {
             Layer::line("", Ink::Data(0), points.clone()),
             Layer::points("", Ink::Text, Symbol::Circle, points.clone()),
         ];
-        let panel = Panel { x: axis.clone(), y: axis, layers, ..Default::default() };
-        let figure = Figure { columns: 1, height: 100.0, panels: vec![panel], ..Default::default() };
-        let text = svg(&figure);
+        let panel = Panel::new("", axis.clone(), axis, layers);
+        let text = svg(&Figure::new("", "", 1, 100.0, vec![panel]));
         assert!(!text.contains("NaN") && !text.contains("inf") && text.len() < 20_000, "{}", text.len());
         usvg::Tree::from_str(&text, &usvg::Options::default()).expect("the SVG is XML");
     }

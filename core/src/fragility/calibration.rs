@@ -326,7 +326,6 @@ fn logistic(z: f64) -> f64 {
     1.0 / (1.0 + (-z).exp())
 }
 
-/// A case of the likelihood.
 struct Observation {
     terms: LogitTerms,
     happened: bool,

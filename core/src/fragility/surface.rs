@@ -21,9 +21,7 @@ pub enum MotionKind {
     Recorded,
     /// Combined synthetic motions on rock: pulse and high frequencies.
     Csgm,
-    /// Coherent pulses alone.
     Pulse,
-    /// High frequencies alone.
     Hfc,
 }
 

@@ -16,7 +16,6 @@ use crate::statistics::{Interval, least_squares, normal};
 /// Motions as recorded at generic sites, conditional on one peak, and what narrows the other.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GenericSites {
-    /// The peak that motions are conditional on.
     pub over: Peak,
     pub mw: Option<f64>,
     pub vs30_m_s: Option<f64>,
@@ -65,7 +64,6 @@ pub struct Lognormal {
     pub largest_error: Option<f64>,
 }
 
-/// Steps of a fragility.
 const STEPS: usize = 119;
 /// The least intensity over the strongest.
 const LEAST: f64 = 1e-3;

@@ -74,7 +74,6 @@ pub fn mean_log10_tp_s(mw: f64) -> f64 {
 #[serde(rename_all = "snake_case")]
 #[strum(serialize_all = "snake_case", parse_err_ty = String, parse_err_fn = unknown_word::<Suite>)]
 pub enum Suite {
-    /// The coherent pulse alone.
     Pulse,
     /// The combined synthetic ground motion: pulse and high frequencies.
     Csgm,

@@ -8,16 +8,13 @@ use crate::fragility::{Model, MotionKind, RockingDirection, Tau};
 use crate::motion::{Floor, IntensityMeasures, Peaks};
 use crate::plausibility::{LEAST_ALPHA_RAD, LEAST_P_RAD_S};
 use crate::rocking::Structure;
-use crate::spelling::unknown_word;
 use crate::statistics::normal::Z_95;
 use crate::warning::Warning;
 
-/// A source of uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, serde::Serialize, serde::Deserialize)]
-#[derive(strum::Display, strum::EnumString, strum::IntoStaticStr, strum::VariantArray)]
+#[derive(strum::Display, strum::IntoStaticStr, strum::VariantArray)]
 #[serde(rename_all = "snake_case")]
-#[strum(serialize_all = "snake_case", parse_err_ty = String)]
-#[strum(parse_err_fn = unknown_word::<UncertaintySource>)]
+#[strum(serialize_all = "snake_case")]
 pub enum UncertaintySource {
     /// Parameters of the fragility model.
     Fit,
@@ -53,7 +50,7 @@ pub struct RockingObject {
 }
 
 /// A quantity that is uncertain, an object of which one is, or a result of either.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LowHigh<T> {
     pub source: UncertaintySource,
     /// At its 2.5 % quantile, inside what is possible; of a hazard at the 16 % fractile, as agencies give it.

@@ -167,7 +167,6 @@ pub struct Capacity {
     pub safe_below: Option<f64>,
     #[serde(rename = "overturning_intensity")]
     pub overturning: Option<f64>,
-    /// Largest safe intensity.
     pub safe_up_to: Option<f64>,
 }
 

@@ -47,7 +47,6 @@ pub struct Lanes<'a, S: Simd> {
     pub(super) responses: Vec<Response>,
     /// The lanes in use, one bit for each.
     pub(super) busy: u32,
-    /// Index of the problem in each lane.
     problem: [usize; MOST_LANES],
     pub(super) samples: [&'a [f64]; MOST_LANES],
     /// Index of the last sample passed.

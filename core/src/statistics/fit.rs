@@ -27,7 +27,6 @@ pub enum FitStatus {
     TooFewEvents,
     /// A measure is constant, or a combination of others, or there are fewer cases than coefficients.
     Degenerate,
-    /// The iterations did not converge.
     NotConverged,
 }
 

@@ -145,12 +145,13 @@ fn limits_of_known_capacities_are_scipys() {
         let (_, [theta, theta_low, theta_high, beta, beta_low, beta_high], capacities) = row;
         let known = capacities.split(' ').map(|text| KnownCapacity::At(text.parse().unwrap()));
         let fit = fit_capacities(&known.collect::<Vec<_>>()).unwrap();
-        close(fit.theta.value, theta, 1e-12);
-        close(fit.beta.value, beta, 1e-12);
-        close(fit.theta.low, theta_low, 1e-10);
-        close(fit.theta.high, theta_high, 1e-10);
-        close(fit.beta.low, beta_low, 1e-10);
-        close(fit.beta.high, beta_high, 1e-10);
+        for (found, [value, low, high]) in
+            [(fit.theta, [theta, theta_low, theta_high]), (fit.beta, [beta, beta_low, beta_high])]
+        {
+            close(found.value, value, 1e-12);
+            close(found.low, low, 1e-10);
+            close(found.high, high, 1e-10);
+        }
     }
 }
 

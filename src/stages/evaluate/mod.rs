@@ -5,6 +5,7 @@ mod table;
 
 use std::path::{Path, PathBuf};
 
+use anyhow::{bail, ensure};
 use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
@@ -178,14 +179,22 @@ impl Stage for Evaluate {
         context.tell(reader.warnings, reader.readings);
         let models_of = |object: &Object| models.rocking_object(object);
         let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
-        warn(&rows, context);
+        // The text states these, or a warning of the file that is read.
+        let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
+        for answer in answer::over_all(&rows) {
+            let warnings =
+                answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
+            context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
+        }
         let all = answer::table(&rows, &question)?;
         let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {
             let is_page = self.out.as_ref().is_some_and(|out| ENDINGS[4..].contains(&&*ending(out)));
             let most = if self.variants || is_page { WORST } else { 0 };
-            let worst = worst(&table.rows, &objects, most).collect::<Vec<_>>();
-            let details = worst.par_iter().map(|object| Detail::new(object, site, *years, &models_of));
+            let mut worst: Vec<(&Answer, &Object)> = table.rows.iter().zip(&objects).collect();
+            worst.sort_by(|(a, _), (b, _)| b.severity().total_cmp(&a.severity()));
+            worst.truncate(most);
+            let details = worst.par_iter().map(|(_, object)| Detail::new(object, site, *years, &models_of));
             table.details = details.filter(|detail| !detail.variants.is_empty()).collect();
             table.hazard = Some(site.hazard.clone());
         }
@@ -211,19 +220,16 @@ impl Stage for Evaluate {
 const WORST: usize = 10;
 
 impl Evaluate {
-    /// The motion that is given.
     fn motion(&self) -> anyhow::Result<GroundMotion> {
         let (pga_m_s2, pgv_m_s) = (self.pga.map(|pga_g| pga_g * G_M_S2), self.pgv);
         if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
-            if self.vs30.is_some() {
-                return Err(UsageError::because("vs30 only estimates a missing peak; both are given"));
-            }
+            let problem = "vs30 only estimates a missing peak; both are given";
+            ensure!(self.vs30.is_none(), UsageError::because(problem));
             Peaks { pga_m_s2, pgv_m_s }.validate().map_err(UsageError::because)?;
         }
         Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
 
-    /// What is asked of the objects.
     fn question(&self, reader: &mut Reader, models: &Models) -> anyhow::Result<Question> {
         if self.pga.or(self.pgv).is_some() {
             let motion = self.motion()?;
@@ -233,7 +239,7 @@ impl Evaluate {
             return Ok(Question::Motion(motion));
         }
         models.expect_ground()?;
-        let site = if self.hazard.is_empty() { None } else { Some(self.site(reader)?) };
+        let site = (!self.hazard.is_empty()).then(|| self.site(reader)).transpose()?;
         let over = self.over.unwrap_or(Peak::Pgv);
         let general = GenericSites { over, mw: self.magnitude, vs30_m_s: self.vs30, ratio_s: self.ratio };
         match site {
@@ -252,13 +258,13 @@ impl Evaluate {
     fn site(&self, reader: &mut Reader) -> anyhow::Result<Site> {
         let mut hazard = hazard::read(&self.hazard, reader, self.effective_years)?;
         match &mut hazard {
-            Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
-                *pgv_pga = self.ratio.map(PgvPgaRatio::given);
+            Hazard::Curve(PeakHazard { pgv_pga: known @ None, .. }) => {
+                *known = self.ratio.map(PgvPgaRatio::given)
             }
-            _ if self.ratio.or(self.vs30).is_some() => {
-                return Err(UsageError::because("ratio, vs30: the hazard itself gives PGV/PGA"));
+            _ => {
+                let problem = "ratio, vs30: the hazard itself gives PGV/PGA";
+                ensure!(self.ratio.or(self.vs30).is_none(), UsageError::because(problem));
             }
-            _ => {}
         }
         Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30 })
     }
@@ -272,13 +278,11 @@ impl Evaluate {
         }
         let objects = self.structures.objects(&self.place, reader)?;
         reader.expect_used()?;
-        let are_all = objects.iter().all(Object::is_implausible);
-        match (objects.first().and_then(|first| first.sides().err()), &self.structures.structures) {
-            (Some(reason), Some(path)) if are_all => {
-                let reason = named(&objects[0], &reason);
-                anyhow::bail!("{}: {reason}; every other row has a fault too", path.display())
-            }
-            (Some(reason), None) if are_all => Err(named(&objects[0], &reason)),
+        let first = objects.first().filter(|_| objects.iter().all(Object::is_implausible));
+        match (first.and_then(|first| Some(named(first, &first.sides().err()?))), &self.structures.structures)
+        {
+            (Some(why), Some(path)) => bail!("{}: {why}; every other row has a fault too", path.display()),
+            (Some(why), None) => Err(why),
             _ => Ok(objects),
         }
     }
@@ -288,8 +292,7 @@ impl Evaluate {
         if self.format == Format::Text { Ok(text) } else { frame::show(&framed(rows)?, self.format) }
     }
 
-    /// Writes rows of one schema, the sheet, a page or the main figure of them, by how the name of the file
-    /// ends.
+    /// Writes rows, the sheet, a page or its main figure, by how the name of the file ends.
     fn write(
         &self,
         rows: &[RecordBatch],
@@ -325,24 +328,6 @@ fn parse_target(text: &str) -> Result<f64, String> {
     }
 }
 
-/// The objects that are the most likely to overturn, at most so many.
-fn worst<'a>(answers: &[Answer], objects: &'a [Object], most: usize) -> impl Iterator<Item = &'a Object> {
-    let mut places: Vec<usize> = (0..answers.len()).collect();
-    places.sort_by(|a, b| answers[*b].severity().total_cmp(&answers[*a].severity()));
-    places.into_iter().take(most).map(|place| &objects[place])
-}
-
-/// Warns of what the text of the answers does not state.
-fn warn(answers: &[Answer], context: &Context) {
-    // The text states them, or a warning of the file that is read.
-    let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
-    for answer in answer::over_all(answers) {
-        let warnings = answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
-        context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
-    }
-}
-
-/// Rows of one schema as a frame.
 fn framed(rows: &[RecordBatch]) -> anyhow::Result<DataFrame> {
     let mut whole = DataFrame::default();
     for rows in rows {

@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::path::Path;
 
-use anyhow::ensure;
+use anyhow::{bail, ensure};
 use arrow_array::RecordBatch;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
@@ -28,8 +28,7 @@ use crate::table::columns::Batch;
 use crate::table::file::ParquetTable;
 use crate::table::rows;
 
-/// Reads intensities, and returns them with their probabilities, and what to print. Without a structure that
-/// is given each row has its own.
+/// The intensities with their probabilities, and what to print. Rows may have structures of their own.
 pub fn evaluate(
     call: &Evaluate,
     path: &Path,
@@ -48,16 +47,13 @@ pub fn evaluate(
         }
     };
     let given = if structures.is_given() { structures.objects(&place, reader)? } else { Vec::new() };
-    let problem =
-        "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
-    ensure!(given.len() < 2, UsageError::because(problem));
+    let one = "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
+    ensure!(given.len() < 2, UsageError::because(one));
     let columns = batches.first().map(|batch| batch.rows.schema());
     let column = columns.and_then(|all| STRUCTURE.into_iter().find(|name| all.index_of(name).is_ok()));
-    if let Some(column) = column.filter(|_| !given.is_empty()) {
-        let path = path.display();
-        return Err(UsageError::because(format!(
-            "{path}: column {column} and options of a structure; leave out the one or the other"
-        )));
+    if let (Some(column), Some(_)) = (column, given.first()) {
+        let both = format!("column {column} and options of a structure; leave out the one or the other");
+        bail!(UsageError::because(format!("{}: {both}", path.display())));
     }
     let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
@@ -142,38 +138,33 @@ fn with_probabilities<'a>(
     rows::side_by_side(&[own, batch.rows.project(&kept)?])
 }
 
-/// The peaks of each row with both.
+/// The peaks of each row with both, m/s2 and m/s.
 fn peaks(batch: &Batch) -> anyhow::Result<Vec<Option<Peaks>>> {
-    let (pga, pgv) = (column_of_peak(batch, Peak::Pga)?, column_of_peak(batch, Peak::Pgv)?);
-    let both = pga.into_iter().zip(pgv);
-    Ok(both.map(|(pga, pgv)| Some(Peaks { pga_m_s2: pga?, pgv_m_s: pgv? })).collect())
-}
-
-/// A peak of each row, m/s2 or m/s; none where it is missing.
-fn column_of_peak(batch: &Batch, wanted: Peak) -> anyhow::Result<Vec<Option<f64>>> {
     let schema = batch.rows.schema();
     let names: Vec<&str> = schema.fields().iter().map(|field| field.name().as_str()).collect();
-    let (name, unit) =
-        intensities::column_of_peak(&names, wanted).map_err(|error| error.in_file(&batch.path))?;
-    let values = batch.numbers(name)?.into_iter().enumerate().map(|(row, value)| {
-        let is_possible = value.is_none_or(|value| value >= 0.0);
-        ensure!(is_possible, batch.value_error(row, name, "expected 0 or more"));
-        Ok(value.map(|value| value * unit))
-    });
-    values.collect()
+    let column = |peak: Peak| -> anyhow::Result<Vec<Option<f64>>> {
+        let (name, unit) =
+            intensities::column_of_peak(&names, peak).map_err(|error| error.in_file(&batch.path))?;
+        let values = batch.numbers(name)?.into_iter().enumerate().map(|(row, value)| {
+            let is_possible = value.is_none_or(|value| value >= 0.0);
+            ensure!(is_possible, batch.value_error(row, name, "expected 0 or more"));
+            Ok(value.map(|value| value * unit))
+        });
+        values.collect()
+    };
+    let both = column(Peak::Pga)?.into_iter().zip(column(Peak::Pgv)?);
+    Ok(both.map(|(pga, pgv)| Some(Peaks { pga_m_s2: pga?, pgv_m_s: pgv? })).collect())
 }
 
 /// The columns of a Parquet table, without samples, under the names that the user gives.
 fn read_parquet(path: &Path, reader: &mut Reader) -> anyhow::Result<Vec<Batch>> {
     let table = ParquetTable::open(path)?;
-    let mut renamed = Vec::new();
-    for batch in table.batches(|column| column != "acceleration_m_s2") {
-        let batch = batch?;
-        let schema = batch.rows.schema();
-        let names: Vec<String> = schema.fields().iter().map(|field| reader.name(field.name())).collect();
-        let columns = names.into_iter().zip(batch.rows.columns().iter().cloned());
-        let columns = columns.map(|(name, column)| (name, column, true));
-        renamed.push(Batch { rows: RecordBatch::try_from_iter_with_nullable(columns)?, ..batch });
-    }
-    Ok(renamed)
+    let renamed = table.batches(|column| column != "acceleration_m_s2").map(|batch| {
+        let (batch, mut columns) = (batch?, Vec::new());
+        for (field, column) in batch.rows.schema().fields().iter().zip(batch.rows.columns()) {
+            columns.push((reader.name(field.name()), column.clone(), true));
+        }
+        Ok(Batch { rows: RecordBatch::try_from_iter_with_nullable(columns)?, ..batch })
+    });
+    renamed.collect()
 }

@@ -82,7 +82,6 @@ impl Stage for Report {
     }
 }
 
-/// Writes a figure, its picture and its numbers.
 fn write(figure: &Figure, stem: &Path, context: &Context) -> anyhow::Result<()> {
     let svg = svg(figure);
     context.write_file(&stem.with_added_extension("png"), &png(&svg, DPI)?)?;

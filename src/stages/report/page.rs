@@ -29,8 +29,7 @@ const MOST_MOTIONS: usize = 30;
 const MOST_STRUCTURES: usize = 8;
 /// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
-/// Figures that are seen on the page of a list, of the paper and of other responses. Further ones are folded;
-/// of a list there are only these.
+/// Figures that are seen on the page of a list, which has no others, of the paper and of other responses.
 const OF_RATES: &[&str] = &["map", "ida", "validation"];
 const OF_PAPER: &[&str] = &["hybrid", "demand", "map", "motion", "similarity", "planes", "exceedance"];
 const OF_RESPONSES: &[&str] = &["ida", "universality", "map", "overturning", "validation"];
@@ -105,7 +104,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     Ok((head, all))
 }
 
-/// Draws all figures; what is too much to draw is left out.
 fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let rocking = tables.groups.iter().filter(|cases| rocked(cases).next().is_some());
     let mut groups: Vec<&Cases> = rocking.collect();
@@ -138,8 +136,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     Ok(figures)
 }
 
-/// The figure of all groups; if it would have more panels than four, or more groups than colours, one a
-/// structure.
+/// The figure of all groups; one a structure, where it would have too many panels or colours.
 fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Figure> {
     let whole = draw(groups);
     if whole.panels.len() <= MOST_PANELS && groups.len() <= MOST_COLOURS {
@@ -156,12 +153,10 @@ fn by_structure(groups: &[&Cases], draw: impl Fn(&[&Cases]) -> Figure) -> Vec<Fi
         .collect()
 }
 
-/// The head of the page, with its figures: of the evaluations, else of the paper, of responses over time or
-/// of responses.
+/// The head of the page: of the evaluations, else of the paper, of responses over time or of responses.
 fn head(tables: &Tables) -> Document {
     let Tables { answers, compared, traces, groups, .. } = tables;
-    let compared_answers = if tables.are_files { compare::document(answers) } else { None };
-    let mut head = match compared_answers {
+    let mut head = match tables.are_files.then(|| compare::document(answers)).flatten() {
         Some(document) => document,
         None if !answers.is_empty() => Document::of_answers(&AnswerTable::joined(answers)),
         None if !compared.is_empty() => Document {
@@ -177,10 +172,7 @@ fn head(tables: &Tables) -> Document {
         },
         None if !traces.is_empty() => return response::document(traces),
         None => Document {
-            title: match groups.is_empty() {
-                true => "Fits and motions".to_string(),
-                false => "What rocks and what overturns".to_string(),
-            },
+            title: groups.first().map_or("Fits and motions", |_| "What rocks and what overturns").to_string(),
             lead: overturned(groups).into_iter().collect(),
             facts: groups.first().map(|_| ANGLES.to_string()).into_iter().collect(),
             ..Document::default()
@@ -233,18 +225,15 @@ fn overturned(groups: &[Cases]) -> Option<String> {
         let [events, all] = [cases.count(Outcome::Overturned), cases.all.len()].map(number::count);
         format!("{events} of {all} motions overturn {}", name(cases))
     };
-    let sentences: Vec<String> = groups.iter().take(MOST_NAMED).map(sentence).collect();
-    (!sentences.is_empty()).then(|| sentences.join("; ") + ".")
+    let sentences = groups.iter().take(MOST_NAMED).map(sentence).reduce(|all, one| all + "; " + &one);
+    sentences.map(|all| all + ".")
 }
 
-/// What came of each structure and suite, and the median that overturns it: of its capacities, else of the
-/// paper's curve.
+/// What came of each structure and suite, and its median by its capacities, else by the paper's curve.
 fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     let capacities: Vec<CapacityFitRow> = tables.rows(Kind::CapacityFits)?;
-    let median = match capacities.first() {
-        Some(fit) => format!("median of the lowest overturning {}", scaled_label(fit.measure)),
-        None => "median PGV (m/s), lognormal curve".to_string(),
-    };
+    let of = |fit: &CapacityFitRow| format!("median of the lowest overturning {}", scaled_label(fit.measure));
+    let median = capacities.first().map_or("median PGV (m/s), lognormal curve".to_string(), of);
     let often = "as often as the surface predicts";
     let structure = ["structure", "motions", "*p*, rad/s", "*α*", "*η*"];
     let heads = [&structure[..], &["number", "rock", "overturn", often, &median, "dispersion"]].concat();
@@ -271,8 +260,9 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
 /// What came of each structure under each motion, a table for each file of few motions.
 fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let structures = by(&tables.groups, |cases| &cases.structure.name);
-    let mut heads = ["motion", "PGA, g", "PGV, m/s"].map(str::to_string).to_vec();
-    heads.extend(structures.iter().map(|its| called(&its[0].structure)));
+    let names: Vec<String> = structures.iter().map(|its| called(&its[0].structure)).collect();
+    let heads = ["motion", "PGA, g", "PGV, m/s"].into_iter().chain(names.iter().map(String::as_str));
+    let heads: Vec<&str> = heads.collect();
     let mut all = Vec::new();
     let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_MOTIONS * MOST_STRUCTURES;
     for item in tables.of(Kind::Responses).filter(is_short) {
@@ -294,9 +284,8 @@ fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             }));
             row
         };
-        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*".to_string();
-        let (heads, rows) = (heads.clone(), motions.iter().map(line).collect());
-        all.push(Table { caption, heads, rows, ..Table::default() });
+        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*";
+        all.push(Table::new(&heads, motions.iter().map(line).collect()).explained(caption));
     }
     Ok(all)
 }
@@ -354,26 +343,23 @@ fn claims(tables: &Tables) -> Vec<Table> {
         };
         format!("{mean} ({low} to {high}){mark}")
     };
+    let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
     let of_claim = |rows: Vec<&Claim>| {
-        let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
-        let columns = by(rows.iter().copied(), column).into_iter().map(|its| column(its[0]));
-        let heads: Vec<String> =
-            ["number", "claimed"].map(str::to_string).into_iter().chain(columns).collect();
+        let columns: Vec<String> =
+            by(rows.iter().copied(), column).iter().map(|its| column(its[0])).collect();
         let line = |its: Vec<&Claim>| {
-            let cells = heads[2..].iter().map(|head| {
-                let its_row = its.iter().copied().find(|row| column(row) == *head);
-                its_row.map_or(String::new(), shown)
-            });
+            let of = |head: &String| its.iter().find(|row| column(row) == *head).map(|row| shown(row));
             let claimed = its.iter().map(|row| row.claimed.as_str()).max().unwrap_or_default();
+            let cells = columns.iter().map(|head| of(head).unwrap_or_default());
             [&its[0].quantity, claimed].map(literal).into_iter().chain(cells).collect()
         };
         let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
         let Claim { claim, verdict, figure, .. } = rows[0];
-        let caption = format!(
+        let heads = ["number", "claimed"].into_iter().chain(columns.iter().map(String::as_str));
+        Table::new(&heads.collect::<Vec<_>>(), lines).explained(&format!(
             "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more seed; \
              by those of the mean, ? is undecided and \u{2717} against the claim."
-        );
-        Table { caption, heads, rows: lines, ..Table::default() }
+        ))
     };
     by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
 }

@@ -77,7 +77,6 @@ pub enum Kind {
     Other,
 }
 
-/// A table that is read.
 pub struct Item {
     pub path: PathBuf,
     pub kind: Kind,
@@ -92,12 +91,12 @@ impl Item {
         let table = ParquetTable::open(path)?;
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
         let words = |kind: &Kind, of: &str| kind.get_str(of).unwrap_or_default().split(' ');
-        let is_by = |kind: &Kind, made: &Provenance| words(kind, "by").any(|stage| stage == made.stage);
-        let kind = Kind::VARIANTS.iter().copied().find(|kind| {
-            made.as_ref().is_none_or(|made| is_by(kind, made))
+        let is_it = |kind: &&Kind| {
+            let is_by = |made: &Provenance| words(kind, "by").any(|stage| stage == made.stage);
+            made.as_ref().is_none_or(is_by)
                 && words(kind, "columns").all(|name| table.schema().index_of(name).is_ok())
-        });
-        let kind = kind.unwrap_or(Kind::Other);
+        };
+        let kind = Kind::VARIANTS.iter().copied().find(|kind| is_it(&kind)).unwrap_or(Kind::Other);
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
 
@@ -129,16 +128,13 @@ pub struct Tables {
 }
 
 impl Tables {
-    /// Reads files, and the tables of folders. A file that is no table is an error; in a folder it is passed
-    /// over.
+    /// Reads files, and of folders what is a table.
     pub fn read(paths: &[PathBuf]) -> anyhow::Result<Tables> {
         let mut tables = Tables { are_files: paths.iter().all(|path| !path.is_dir()), ..Tables::default() };
         for path in paths {
             let files = files_of(path)?;
-            if files.is_empty() {
-                let expected = "expected those of simulate, fit-pro, ida or evaluate";
-                anyhow::bail!("{}: no tables; {expected}", path.display());
-            }
+            let expected = "expected those of simulate, fit-pro, ida or evaluate";
+            anyhow::ensure!(!files.is_empty(), "{}: no tables; {expected}", path.display());
             let items = files.iter().map(|file| Item::read(file)).collect::<Result<Vec<_>, _>>()?;
             tables.items.extend(items);
         }
@@ -156,9 +152,9 @@ impl Tables {
             rotation_floor: floor.unwrap_or_default(),
         };
         tables.fits.curves.retain(|fit| fit.event == Event::Overturning && !fit.coefficients.is_empty());
-        let groups =
-            tables.of(Kind::Responses).map(|item| responses::read(&item.path, &tables.columns(item)?));
-        tables.groups = groups.collect::<anyhow::Result<Vec<_>>>()?.concat();
+        let read = |item: &Item| responses::read(&item.path, &tables.columns(item)?);
+        let groups = tables.of(Kind::Responses).map(read).collect::<anyhow::Result<Vec<_>>>()?;
+        tables.groups = groups.concat();
         tables.compared = tables.rows(Kind::Paper)?;
         // The paper has the frame first.
         if tables.groups.len() > 2 && tables.compared.is_empty() {
@@ -166,14 +162,10 @@ impl Tables {
         }
         for item in &tables.items {
             match item.kind {
-                Kind::Answers => {
-                    let made = item.made.clone().unwrap_or_default();
-                    tables.answers.push(AnswerTable::read(&item.path, made)?);
-                }
+                Kind::Answers => tables.answers.push(AnswerTable::read(&item.path, item.made.as_ref())?),
                 Kind::Traces => tables.traces.extend(read_traces(&item.path)?),
                 Kind::Other | Kind::Probabilities => {
-                    let (name, words) = (item.name(), item.kind);
-                    tables.left_out.push(format!("{name} is not shown: it holds {words}."));
+                    tables.left_out.push(format!("{} is not shown: it holds {}.", item.name(), item.kind));
                 }
                 _ => {}
             }
@@ -182,8 +174,7 @@ impl Tables {
         Ok(tables)
     }
 
-    /// Columns of the motions of responses, where these are there: the velocity of the pulse, and measures of
-    /// curves.
+    /// Columns of the motions of responses: the velocity of the pulse, and measures of curves.
     fn columns(&self, responses: &Item) -> anyhow::Result<MotionColumns> {
         let motions = self.of(Kind::Motions).find(|item| responses.input("in").as_ref() == Some(&item.key));
         let Some(motions) = motions else { return Ok(MotionColumns::default()) };
@@ -206,8 +197,7 @@ impl Tables {
         }
     }
 
-    /// Leaves out the tables that were made of other responses, motions or fits than those that are there:
-    /// names of structures alone do not tell.
+    /// Leaves out tables that were made of others than are there: names of structures alone do not tell.
     fn leave_out_strangers(&mut self) {
         let made_of = |item: &Item| match item.kind {
             Kind::Planes | Kind::Curves | Kind::Calibrations | Kind::Parameters => ("in", Kind::Responses),
@@ -221,9 +211,8 @@ impl Tables {
             let mut keys = all.iter().filter(|(kind, _)| *kind == of).map(|(_, key)| key).peekable();
             item.input(flag).is_some_and(|key| keys.peek().is_some() && keys.all(|other| *other != key))
         };
-        for item in
-            self.items.extract_if(.., is_stranger).filter(|item| item.kind.get_bool("silent") != Some(true))
-        {
+        let strangers = self.items.extract_if(.., is_stranger);
+        for item in strangers.filter(|item| item.kind.get_bool("silent") != Some(true)) {
             let what = made_of(&item).1;
             self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
         }
@@ -233,13 +222,11 @@ impl Tables {
         self.items.iter().filter(move |item| item.kind == kind)
     }
 
-    /// The rows of all tables of a kind.
     pub fn rows<R: Row>(&self, kind: Kind) -> Result<Vec<R>, TableError> {
         let tables = self.of(kind).map(|item| rows::read(&item.path)).collect::<Result<Vec<_>, _>>()?;
         Ok(tables.into_iter().flatten().collect())
     }
 
-    /// What made each table that is ours.
     pub fn made(&self) -> impl Iterator<Item = &Provenance> {
         self.items.iter().filter_map(|item| item.made.as_ref())
     }
