@@ -280,7 +280,7 @@ impl Detail {
 }
 
 impl FragilityColumns {
-    fn new(fragility: &Fragility) -> FragilityColumns {
+    pub fn new(fragility: &Fragility) -> FragilityColumns {
         let (_, unit, _) = fragility.over.name_and_unit();
         let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| Lognormal {
             at_16: of.at_16.map(|intensity| intensity / unit),

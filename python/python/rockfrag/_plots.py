@@ -71,6 +71,29 @@ def curves(
     return on
 
 
+#: The limit states, in words.
+STATES = {"p_rocking": "rocks", "p_failure": "overturns, or rocks too far", "p_overturning": "overturns"}
+
+
+def fragility(x: Floats, label: str, of: Any, on: Any = None) -> Any:
+    """The probabilities of overturning and of failure, with their limits."""
+    ends = ("", "_low", "_high")
+    named: Any = [(STATES[p], *(np.ravel(getattr(of, p + end)) for end in ends)) for p in ("p_overturning", "p_failure")]
+    return curves(x, label, named, on)
+
+
+def line(of: Any, name: str) -> str:
+    """A probability, or the least and the largest of several, with the outermost limits."""
+    p, low, high = [
+        values[~np.isnan(values)]
+        for end in ("", "_low", "_high")
+        for values in [np.ravel(np.asarray(getattr(of, name + end, np.nan), dtype=np.float64))]
+    ]
+    ends = " to ".join(sorted({f"{p.min():.3g}", f"{p.max():.3g}"}, key=float)) if p.size else "none"
+    limits = f"  (95 % limits {low.min():.3g} to {high.max():.3g})" if low.size else ""
+    return f"{name:13} {STATES[name]:<27} {ends}{limits}"
+
+
 class Shown:
     """What a notebook shows as text, and below it as a picture where there is one and matplotlib is installed."""
 
