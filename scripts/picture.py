@@ -29,7 +29,7 @@ for outcome, colour, label in [("safe_rocking", BLUE, "rocks"), ("overturning", 
 pga, pgv = np.meshgrid(np.geomspace(0.204, 2.0, 120), np.geomspace(0.05, 2.5, 120))
 # Less PGV is refused.
 possible, p_ro = pgv > 0.05 * pga, np.full(pga.shape, np.nan)
-p_ro[possible] = rockfrag.probability(pga[possible], pgv[possible], **EQUIPMENT, fits=folder).p_ro
+p_ro[possible] = rockfrag.Object(**EQUIPMENT, fits=folder).probability(pga[possible], pgv[possible]).p_overturning
 lines = left.contour(pga, pgv, p_ro, [0.02, 0.1, 0.5, 0.9], colors="black", linewidths=1)
 left.clabel(lines, fmt="%g")
 left.set(xscale="log", yscale="log", xlabel="PGA (g)", ylabel="PGV (m/s)", xlim=(0.2, 2), ylim=(0.05, 2.5))
@@ -40,7 +40,8 @@ left.legend(frameon=False, loc="lower right")
 right.plot([0, 1], [0, 1], color="grey", lw=1)
 peaks = unseen["pga_m_s2"].to_numpy() / 9.81, unseen["pgv_m_s"].to_numpy()
 for options, style, label in [({"suite": "csgm"}, "s", "surface"), ({"fits": folder}, "o", "surface, calibrated")]:
-    cases = unseen.with_columns(p=rockfrag.probability(*peaks, **EQUIPMENT, **options).p_ro)
+    asked = rockfrag.Object(**EQUIPMENT, **options)
+    cases = unseen.with_columns(p=asked.probability(*peaks).p_overturning)
     bins = cases.group_by(pl.col("p").cut(edges).alias("bin")).agg(
         pl.col("p").mean(), n=pl.len(), share=(pl.col("outcome") == "overturning").mean()
     ).filter(pl.col("n") >= 10)  # fmt: skip

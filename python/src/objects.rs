@@ -1,14 +1,16 @@
-//! Objects and sites of the library: probabilities, rates and fragilities without a file. Numbers are the bytes
-//! of f64, NaN where there is none.
+//! Objects and sites of the library: probabilities, rates and fragilities without a file. Numbers are the
+//! bytes of f64, NaN where there is none.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::CString;
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use arrow_array::RecordBatch;
 use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyDict};
 use rayon::prelude::*;
 use rockfrag::answer::{CurveRow, FragilityColumns, RateColumns};
@@ -22,7 +24,7 @@ use rockfrag_core::hazard::{
     self, GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, unusual_motions,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
-use rockfrag_core::object::{Field, Object, RockingObject};
+use rockfrag_core::object::{Field, Object, Place, RockingObject};
 use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
 use rockfrag_core::records::implausibility::rarity;
 use rockfrag_core::rocking::Structure;
@@ -57,7 +59,7 @@ fn with_fields(message: &str) -> String {
 /// An object with the model of each of its directions.
 #[pyclass(frozen, name = "Object")]
 pub struct PyObject {
-    object: Object,
+    place: Place,
     rocking: Arc<RockingObject>,
     warnings: Vec<Warning>,
 }
@@ -81,11 +83,7 @@ impl PyObject {
         }
         let suite = suite.map(str::parse::<MotionKind>).transpose();
         let suite = suite.map_err(|error| PyValueError::new_err(format!("suite: {error}")))?;
-        if !(1e-6..=1.0).contains(&limit_state) {
-            return Err(PyValueError::new_err(format!(
-                "limit_state is {limit_state}; expected a demand |theta|max / alpha above 0 and up to 1"
-            )));
-        }
+        expect("limit_state", &[limit_state])?;
         let object = object.on_pedestal();
         let model = ModelArgs { fits, name: None, suite, model: ModelName::Calibrated, limit_state };
         let found = model.read().and_then(|models| models.rocking_object(&object));
@@ -93,7 +91,7 @@ impl PyObject {
             true => PyValueError::new_err(with_fields(&error.to_string())),
             false => to_python(&error),
         })?;
-        Ok(PyObject { object, rocking: Arc::new(rocking), warnings })
+        Ok(PyObject { place: object.place, rocking: Arc::new(rocking), warnings })
     }
 
     /// p (rad/s), alpha (rad) and eta of its weaker direction.
@@ -104,18 +102,18 @@ impl PyObject {
     }
 
     /// Probabilities under `number` motions, a row of numbers a limit: rocking; failure, its limits;
-    /// overturning, its limits. A peak or magnitude of one number is that of all motions.
+    /// overturning, its limits.
     fn probability<'py>(
         &self,
         py: Python<'py>,
         number: usize,
-        pga_g: Option<&[u8]>,
-        pgv_m_s: Option<&[u8]>,
-        magnitude: Option<&[u8]>,
+        pga_g: Option<Numbers>,
+        pgv_m_s: Option<Numbers>,
+        magnitude: Option<Numbers>,
         vs30: Option<f64>,
     ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
         expect_site(None, vs30, None)?;
-        let motions = motions(number, [pga_g, pgv_m_s, magnitude], vs30).map_err(PyValueError::new_err)?;
+        let motions = motions(number, [pga_g, pgv_m_s, magnitude], vs30)?;
         let (rocking, mut warnings) = (self.rocking.clone(), BTreeSet::from_iter(self.warnings.clone()));
         warnings.extend(rocking.structure_warnings());
         let states = if number <= FEW {
@@ -136,67 +134,48 @@ impl PyObject {
             rows.iter_mut().zip(all).for_each(|(row, p)| row.push(p.unwrap_or(f64::NAN)));
             warnings.extend(told);
         }
-        Ok((bytes(py, rows.into_iter().flatten()), self.texts(warnings)))
+        Ok((bytes(py, rows.into_iter().flatten()), texts(&warnings)))
     }
 
     /// Annual rates and probabilities in so many years at a site: the columns of evaluate.
     fn rate<'py>(&self, py: Python<'py>, site: &Site, years: f64) -> PyResult<Columns<'py>> {
-        if !(1e-3..=1e6).contains(&years) {
-            return Err(PyValueError::new_err(format!("years is {years}; expected years above 0")));
-        }
+        expect("years", &[years])?;
         let (rocking, site) = (self.rocking.clone(), site.0.clone());
-        let work = move |_: Common| {
+        self.answer(py, move |_| {
             let rates = site.rates(&rocking);
             let (of_rates, in_years) = RateColumns::new(&rates, years);
-            let warnings: Vec<Warning> =
-                rates.warnings.into_iter().chain(rocking.warnings(rates.motion)).collect();
-            Ok((vec![rows::batch(&[of_rates])?, rows::batch(&[in_years])?], warnings))
-        };
-        self.answer(py, work)
+            let warnings = rates.warnings.iter().copied().chain(rocking.warnings(rates.motion));
+            Ok((vec![rows::batch(&[of_rates])?, rows::batch(&[in_years])?], warnings.collect()))
+        })
     }
 
-    /// The fragility over a peak, at a site or in general: the points, and what it comes to.
+    /// The fragility over a peak at typical sites: the points, and what it comes to.
     fn fragility<'py>(
         &self,
         py: Python<'py>,
         over: &str,
-        site: Option<&Site>,
         magnitude: Option<f64>,
         vs30: Option<f64>,
         ratio: Option<f64>,
     ) -> PyResult<Columns<'py>> {
         let over: Peak = over.parse().map_err(|error| PyValueError::new_err(format!("over: {error}")))?;
         expect_site(magnitude, vs30, ratio)?;
-        let general = GenericSites { over, mw: magnitude, vs30_m_s: vs30, ratio_s: ratio };
-        let (rocking, site) = (self.rocking.clone(), site.map(|site| site.0.clone()));
-        let work = move |_: Common| {
-            let at_site = |site: hazard::Site| {
-                let is_over = matches!(&site.hazard, Hazard::Curve(hazard) if hazard.peak == over);
-                site.fragility(&rocking).filter(|_| is_over)
-            };
-            let fragility = match site {
-                None => general.fragility(&rocking),
-                Some(site) => at_site(site).ok_or_else(|| {
-                    UsageError::because(format!("over is {over}; expected that of the curve of the site"))
-                })?,
-            };
-            let points: Vec<CurveRow> =
-                fragility.points.iter().map(|point| CurveRow::new(Some(over), point)).collect();
+        let (rocking, sites) =
+            (self.rocking.clone(), GenericSites { over, mw: magnitude, vs30_m_s: vs30, ratio_s: ratio });
+        self.answer(py, move |_| {
+            let fragility = sites.fragility(&rocking);
+            let points = fragility.points.iter().map(|point| CurveRow::new(Some(over), point));
+            let tables = vec![
+                rows::batch(&points.collect::<Vec<_>>())?,
+                rows::batch(&[FragilityColumns::new(&fragility)])?,
+            ];
             let unusual = unusual_motions(magnitude, vs30);
-            let warnings = unusual.chain(rocking.warnings(fragility.motion)).collect();
-            Ok((vec![rows::batch(&points)?, rows::batch(&[FragilityColumns::new(&fragility)])?], warnings))
-        };
-        self.answer(py, work)
+            Ok((tables, unusual.chain(rocking.warnings(fragility.motion)).collect()))
+        })
     }
 }
 
 impl PyObject {
-    fn texts(&self, warnings: impl IntoIterator<Item = Warning>) -> Vec<String> {
-        let round = self.object.is_round.then_some(Warning::RoundBase);
-        let all: BTreeSet<Warning> = warnings.into_iter().chain(round).collect();
-        all.into_iter().map(|warning| warning.text().to_string()).collect()
-    }
-
     /// Runs `work`, and gives the columns of all its tables with the warnings.
     fn answer<'py>(
         &self,
@@ -208,12 +187,12 @@ impl PyObject {
         for table in tables {
             columns(&found, &table, &|_| true)?;
         }
-        Ok((found, self.texts(warnings.into_iter().chain(self.warnings.iter().copied()))))
+        Ok((found, texts(warnings.iter().chain(&self.warnings))))
     }
 
     /// The structure of its weaker direction, on the ground and free to rock to both sides.
     pub fn structure(&self) -> anyhow::Result<Structure> {
-        let place = &self.object.place;
+        let place = &self.place;
         let problem = match () {
             () if matches!(place.floor(), Ok(Some(_))) => {
                 "level, period: expected the motion of the floor itself"
@@ -223,6 +202,11 @@ impl PyObject {
         };
         Err(UsageError::because(problem))
     }
+}
+
+fn texts<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> Vec<String> {
+    let all: BTreeSet<&Warning> = warnings.into_iter().collect();
+    all.into_iter().map(|warning| warning.text().to_string()).collect()
 }
 
 /// The probabilities under a motion, and warnings about them. One direction has no other to be compared with.
@@ -242,51 +226,62 @@ fn under(
     (motion.probabilities(object).states, told)
 }
 
-/// PGA, PGV and magnitude of each motion, in the ranges that evaluate takes.
-fn motions(
-    number: usize,
-    given: [Option<&[u8]>; 3],
-    vs30_m_s: Option<f64>,
-) -> Result<Vec<GroundMotion>, String> {
-    let checked = [
-        ("pga", 0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"),
-        ("pgv", 0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"),
-        ("magnitude", MAGNITUDES, "a moment magnitude"),
-    ];
-    let given = given.map(|of| of.map(numbers));
-    for ((name, range, expected), values) in checked.iter().zip(&given) {
-        if let Some(value) = values.iter().flatten().find(|value| !range.contains(value)) {
-            return Err(format!("{name} is {value}; expected {expected}"));
-        }
+/// A number, or the bytes of several.
+#[derive(FromPyObject)]
+enum Numbers {
+    One(f64),
+    Many(PyBackedBytes),
+}
+
+/// PGA, PGV and magnitude of each motion.
+fn motions(number: usize, given: [Option<Numbers>; 3], vs30_m_s: Option<f64>) -> PyResult<Vec<GroundMotion>> {
+    let [pga, pgv, mw] = given.map(|of| {
+        of.map(|of| match of {
+            Numbers::One(number) => vec![number],
+            Numbers::Many(bytes) => numbers(&bytes),
+        })
+    });
+    for (name, values) in [("pga", &pga), ("pgv", &pgv), ("magnitude", &mw)] {
+        expect(name, values.iter().flatten())?;
     }
-    let [pga, pgv, mw] = &given;
     if pga.is_some() && pgv.is_some() && vs30_m_s.is_some() {
-        return Err("vs30 only estimates a missing peak; both are given".to_string());
+        return Err(PyValueError::new_err("vs30 only estimates a missing peak; both are given"));
     }
     let all = (0..number).map(|k| {
-        let at = |of: &Option<Vec<f64>>| of.as_ref().map(|of| of[if of.len() == 1 { 0 } else { k }]);
-        let (pga_m_s2, pgv_m_s) = (at(pga).map(|g| g * G_M_S2), at(pgv));
+        let at = |of: &Option<Vec<f64>>| of.as_ref().map(|of| of[k]);
+        let (pga_m_s2, pgv_m_s) = (at(&pga).map(|g| g * G_M_S2), at(&pgv));
         if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
-            Peaks { pga_m_s2, pgv_m_s }.validate()?;
+            Peaks { pga_m_s2, pgv_m_s }.validate().map_err(PyValueError::new_err)?;
         }
-        Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: at(mw), vs30_m_s })
+        Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: at(&mw), vs30_m_s })
     });
     all.collect()
 }
 
-/// Checks what is said of a site besides its hazard.
-fn expect_site(magnitude: Option<f64>, vs30: Option<f64>, ratio: Option<f64>) -> PyResult<()> {
-    let checked = [
-        ("magnitude", magnitude, MAGNITUDES, "a moment magnitude"),
-        ("vs30", vs30, 100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"),
-        ("ratio", ratio, PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"),
-    ];
-    for (name, value, range, expected) in checked {
-        if let Some(value) = value.filter(|value| !range.contains(value)) {
-            return Err(PyValueError::new_err(format!("{name} is {value}; expected {expected}")));
-        }
+/// What evaluate takes, by the names of arguments.
+const TAKEN: [(&str, RangeInclusive<f64>, &str); 7] = [
+    ("limit_state", 1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1"),
+    ("pga", 0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"),
+    ("pgv", 0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"),
+    ("magnitude", MAGNITUDES, "a moment magnitude"),
+    ("vs30", 100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"),
+    ("ratio", PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"),
+    ("years", 1e-3..=1e6, "years above 0"),
+];
+
+fn expect<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> PyResult<()> {
+    let (_, range, expected) =
+        TAKEN.into_iter().find(|(taken, ..)| *taken == name).expect("it is in the table");
+    match values.into_iter().find(|value| !range.contains(value)) {
+        Some(value) => Err(PyValueError::new_err(format!("{name} is {value}; expected {expected}"))),
+        None => Ok(()),
     }
-    Ok(())
+}
+
+/// Checks magnitude, Vs30 and PGV / PGA of the motions of a site.
+fn expect_site(magnitude: Option<f64>, vs30: Option<f64>, ratio: Option<f64>) -> PyResult<()> {
+    let all = [("magnitude", magnitude), ("vs30", vs30), ("ratio", ratio)];
+    all.iter().try_for_each(|(name, value)| expect(name, value))
 }
 
 /// A site by its hazard curves, each of two rows: intensities, and the annual rates at which they are exceeded.

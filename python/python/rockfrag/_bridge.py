@@ -189,8 +189,13 @@ def plain(value: Any) -> object:
 def line(option: Option) -> str:
     """An option with its default and meaning."""
     default = " = False" if option.kind == "flag" else f" = {option.default}" if option.default else ""
-    text = f"{option.name}{default}: {option.help}"
-    return textwrap.fill(" ".join(text.split()), WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+    return listed([(f"{option.name}{default}", option.help)])
+
+
+def listed(helps: Iterable[tuple[str, str]]) -> str:
+    """Names with their whole help, wrapped."""
+    texts = (" ".join(f"{name}: {help}".split()) for name, help in helps)
+    return "\n".join(textwrap.fill(text, WIDTH, subsequent_indent="    ", break_on_hyphens=False) for text in texts)
 
 
 def docstring(stage: Stage) -> str:

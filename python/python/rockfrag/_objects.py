@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, fields
 from functools import partial
+from inspect import cleandoc
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +23,9 @@ if TYPE_CHECKING:
     from ._arrays import Floats
     from ._rockfrag import Site
     from ._stages import Fields
+
+#: What need not be made an array.
+PLAIN = (float, int, type(None))
 
 
 @dataclass(eq=False, repr=False)
@@ -48,8 +52,8 @@ class Probabilities(States):
     """The probabilities under motions, of the shape of these."""
 
     #: Peaks of the motions: g and m/s; None where not given.
-    pga: Floats | None
-    pgv: Floats | None
+    pga: Floats | float | None
+    pgv: Floats | float | None
     warnings: list[str]
 
     def plot(self, axes: Any = None) -> Any:
@@ -57,7 +61,7 @@ class Probabilities(States):
         shape = np.shape(self.p_rocking)
         for label, peak in (("PGA, g", self.pga), ("PGV, m/s", self.pgv)):
             if len(shape) == 1 and peak is not None and len(np.unique(peak)) > 1:
-                return _plots.fragility(peak, label, self, axes)
+                return _plots.fragility(np.asarray(peak), label, self, axes)
         raise ValueError(f"probabilities of the shape {shape} are no curve; expected (n,), n > 1")
 
 
@@ -146,17 +150,20 @@ class Object:
         Of a motion with one peak the other is averaged over, as it is at typical sites, or with this ``vs30``
         (m/s). Without ``magnitude`` it is inferred from PGV / PGA.
         """
-        given = [None if each is None else known(each) for each in (pga, pgv, magnitude)]
-        if given[0] is None and given[1] is None:
+        given: list[Any] = [pga, pgv, magnitude]
+        if pga is None and pgv is None:
             raise TypeError("probability() needs pga, pgv or both")
-        shape = np.broadcast(*[each for each in given if each is not None]).shape
-        whole = [each if each is None or each.shape == shape else np.broadcast_to(each, shape) for each in given]
-        sent = [each if each is None else each.tobytes() for each in whole]
+        shape: tuple[int, ...] = ()
+        if not (isinstance(pga, PLAIN) and isinstance(pgv, PLAIN) and isinstance(magnitude, PLAIN)):
+            arrays = [None if each is None else known(each) for each in given]
+            shape = np.broadcast(*[each for each in arrays if each is not None]).shape
+            given = [None if each is None else np.broadcast_to(each, shape) for each in arrays]
+        sent = [each if isinstance(each, PLAIN) else each.tobytes() for each in given]
         found, warnings = self._object.probability(math.prod(shape), sent[0], sent[1], sent[2], vs30)
         if warnings:
             _bridge.warn(warnings)
         states = np.frombuffer(found).reshape(7, *shape)
-        return Probabilities(*states, whole[0], whole[1], warnings)  # type: ignore[call-arg]
+        return Probabilities(*states, given[0], given[1], warnings)  # type: ignore[call-arg]
 
     def rate(self, site: Site, years: float = 50.0) -> Rate:
         """Annual rates, and the probabilities in so many years, at a site."""
@@ -169,16 +176,15 @@ class Object:
         self,
         over: Literal["pga", "pgv"] = "pgv",
         *,
-        site: Site | None = None,
         magnitude: float | None = None,
         vs30: float | None = None,
         ratio: float | None = None,
     ) -> Fragility:
-        """The fragility over PGV (m/s) or PGA (g): under the motions of typical sites, or of a site.
+        """The fragility over PGV (m/s) or PGA (g) under the motions of typical sites.
 
-        The magnitude, Vs30 (m/s) and PGV / PGA (s) narrow typical sites.
+        The magnitude, Vs30 (m/s) and PGV / PGA (s) narrow these; ``evaluate(over=..., hazard=...)`` is for a site.
         """
-        columns, warnings = self._object.fragility(over, site, magnitude, vs30, ratio)
+        columns, warnings = self._object.fragility(over, magnitude, vs30, ratio)
         _bridge.warn(warnings)
         arrays = {name: np.frombuffer(column) for name, column in columns.items() if isinstance(column, bytes)}
         row = {name: float(column[0]) for name, column in arrays.items() if len(column) == 1}
@@ -208,17 +214,14 @@ class Object:
         return partial(Object, **self._given), ()
 
 
-def fragility(
-    *,
-    over: Literal["pga", "pgv"] = "pgv",
-    site: Site | None = None,
-    magnitude: float | None = None,
-    vs30: float | None = None,
-    ratio: float | None = None,
-    **fields: Any,
-) -> Fragility:
-    """The fragility of the :class:`Object` of these fields: see :meth:`Object.fragility`."""
-    return Object(**fields).fragility(over, site=site, magnitude=magnitude, vs30=vs30, ratio=ratio)
+#: The fields, as the command helps with them.
+Object.__doc__ = f"{cleandoc(Object.__doc__ or '')}\n\n{_bridge.listed(_rockfrag.fields())}"
+
+
+def fragility(over: Literal["pga", "pgv"] = "pgv", **options: Any) -> Fragility:
+    """The fragility of the :class:`Object` of these fields: its options are those of :meth:`Object.fragility` too."""
+    sites = {name: options.pop(name) for name in ("magnitude", "vs30", "ratio") if name in options}
+    return Object(**options).fragility(over, **sites)
 
 
 @dataclass(frozen=True, eq=False)

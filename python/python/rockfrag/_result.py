@@ -11,8 +11,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from . import _rockfrag
 
 if TYPE_CHECKING:
@@ -141,6 +139,9 @@ def library(name: str) -> Any:
 
 def array(column: bytes | list[Any]) -> NDArray[Any]:
     """A column of numbers, or of texts and lists."""
+    # The stub is made by this package where there is no numpy.
+    import numpy as np
+
     if isinstance(column, bytes):
         return np.frombuffer(column)
     found = np.empty(len(column), dtype=object)

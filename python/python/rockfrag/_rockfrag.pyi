@@ -43,11 +43,16 @@ class Object:
         self, fields: list[tuple[str, str]], limit_state: float, suite: str | None, fits: str | PathLike[str] | None
     ) -> None: ...
     def probability(
-        self, number: int, pga: bytes | None, pgv: bytes | None, magnitude: bytes | None, vs30: float | None
+        self,
+        number: int,
+        pga: float | bytes | None,
+        pgv: float | bytes | None,
+        magnitude: float | bytes | None,
+        vs30: float | None,
     ) -> tuple[bytes, list[str]]: ...
     def rate(self, site: Site, years: float) -> tuple[dict[str, Any], list[str]]: ...
     def fragility(
-        self, over: str, site: Site | None, magnitude: float | None, vs30: float | None, ratio: float | None
+        self, over: str, magnitude: float | None, vs30: float | None, ratio: float | None
     ) -> tuple[dict[str, Any], list[str]]: ...
 
 class Site:
