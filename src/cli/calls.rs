@@ -87,8 +87,7 @@ struct PipelineFile {
 impl PipelineFile {
     fn read(path: &Path) -> anyhow::Result<PipelineFile> {
         let place = || path.display().to_string();
-        let missing =
-            || UsageError::Mistake(format!("{}: `rockfrag init` writes one to start from", place()));
+        let missing = || UsageError::Mistake(format!("{} (`rockfrag init` writes one)", place()));
         let bytes = source::read(path).with_context(missing)?;
         PipelineFile::parse(path, bytes).map_err(UsageError::Mistake).with_context(place)
     }
