@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import struct
 from dataclasses import dataclass, fields
 from functools import partial
 from inspect import cleandoc
@@ -49,7 +50,7 @@ class States(_plots.Shown):
 
 @dataclass(eq=False, repr=False)
 class Probabilities(States):
-    """The probabilities under motions, of the shape of these."""
+    """The probabilities under motions: arrays of the shape of these, numbers under one."""
 
     #: Peaks of the motions: g and m/s; None where not given.
     pga: Floats | float | None
@@ -162,7 +163,7 @@ class Object:
         found, warnings = self._object.probability(math.prod(shape), sent[0], sent[1], sent[2], vs30)
         if warnings:
             _bridge.warn(warnings)
-        states = np.frombuffer(found).reshape(7, *shape)
+        states = np.frombuffer(found).reshape(7, *shape) if shape else struct.unpack("7d", found)
         return Probabilities(*states, given[0], given[1], warnings)  # type: ignore[call-arg]
 
     def rate(self, site: Site, years: float = 50.0) -> Rate:
