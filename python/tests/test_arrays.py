@@ -12,20 +12,20 @@ from conftest import BLOCK, FRAME
 import rockfrag
 
 DATA = Path(__file__).parents[2] / "data"
-STATES = [f"p_{state}{end}" for state in ("failure", "overturning") for end in ("", "_low", "_high")] + ["p_rocking"]
+STATES = ["p_rocking", *(f"p_{of}{end}" for of in ("failure", "overturning") for end in ("", "_low", "_high"))]
 OBJECTS = [
     BLOCK,
     {**BLOCK, "depth": 0.4, "base": "stone", "centre_height": 0.8, "centre_height_sd": 0.1},
     {**BLOCK, "period": 0.6, "level": 0.5, "wall": True},
     {"p": 1.5, "alpha": "8.6deg", "eta": 0.92},
-    {"width": 0.4, "height": 1.2, "pedestal_width": 0.6, "pedestal_height": 0.8, "mass": 90.0, "pedestal_mass": 200.0, "fixed_to_pedestal": True},
+    {**BLOCK, "pedestal_width": 0.6, "pedestal_height": 0.8, "mass": 90, "pedestal_mass": 200, "fixed_to_pedestal": True},
 ]
 
 
 def expect_same(found, row, names, of=lambda value: value):
     for name in names:
-        known = row.get(name)
-        assert of(getattr(found, name)) == pytest.approx(np.nan if known is None else known, rel=1e-12, nan_ok=True)
+        known = np.nan if row.get(name) is None else row[name]
+        assert of(getattr(found, name)) == pytest.approx(known, rel=1e-12, nan_ok=True)
 
 
 @pytest.mark.parametrize("fields", OBJECTS)
@@ -55,10 +55,11 @@ def test_many_probabilities_are_each_of_them():
 
 
 def test_curves_are_the_site_of_their_files():
-    curves = [polars.read_csv(DATA / f"hazard{end}.csv", comment_prefix="#").to_numpy().T for end in ("", "_sa")]
+    files = [DATA / "hazard.csv", DATA / "hazard_sa.csv"]
+    curves = [polars.read_csv(file, comment_prefix="#").to_numpy().T for file in files]
     asked, site = rockfrag.Object(**BLOCK), rockfrag.Site(pga=curves[0], sa_1s=tuple(curves[1]))
-    of_files = asked.rate(rockfrag.Site.read(DATA / "hazard.csv", DATA / "hazard_sa.csv"))
-    assert asked.rate(site).overturning_per_year_high == pytest.approx(of_files.overturning_per_year_high, rel=1e-12)
+    of_files = asked.rate(rockfrag.Site.read(*files)).overturning_per_year_high
+    assert asked.rate(site).overturning_per_year_high == pytest.approx(of_files, rel=1e-12)
 
 
 def test_records_are_the_rows_of_simulate(motions):
@@ -116,12 +117,12 @@ ASKED = rockfrag.Object(**BLOCK)
         (lambda: ASKED.response([0.1, np.nan], 0.01), ValueError, "sample 1 of the acceleration is NaN"),
         (lambda: ASKED.response([[0.1, 0.2]], 0.01), ValueError, "2 dimensions"),
         (lambda: ASKED.response(400 * np.ones(9), 0.01), ValueError, "acceleration reaches 40.8 g"),
-        (lambda: rockfrag.simulate_motions([[0.1], [0.2, 0.3]], 5.0, ASKED), ValueError, r"accelerations\[0\]: dt is 5"),
-        (lambda: rockfrag.simulate_motions([[0.1, 0.2]], 0.01, rockfrag.Object(**OBJECTS[2])), ValueError, "level, period"),
+        (lambda: rockfrag.simulate_motions([[0.1], [0.2]], 5.0, ASKED), ValueError, r"ons\[0\]: dt is 5"),
+        (lambda: rockfrag.Object(**OBJECTS[2]).response([0.1, 0.2], 0.01), ValueError, "level, period"),
         (lambda: rockfrag.run("nowhere.yaml"), FileNotFoundError, "nowhere.yaml"),
-        (lambda: rockfrag.fit_fragility([1.0, 0.0], [0, 1]), ValueError, r"im\[1\] is 0; expected a finite number"),
+        (lambda: rockfrag.fit_fragility([1.0, 0.0], [0, 1]), ValueError, r"im\[1\] is 0; expected"),
         (lambda: rockfrag.fit_fragility([1.0, 2.0], [0, 2]), ValueError, "outcome has other values"),
-        (lambda: rockfrag.fit_fragility(np.ones((2, 1)), np.ones((1, 2))), ValueError, r"\(2, 1\) and outcome \(1, 2\)"),
+        (lambda: rockfrag.fit_fragility(np.ones((2, 1)), np.ones(2)), ValueError, r"\(2, 1\) and outcome \(2,\)"),
     ],
 )
 def test_what_is_wrong_is_named(call, error, message):
@@ -171,8 +172,8 @@ def test_probabilities_come_from_fits_too(tmp_path, responses):
     rockfrag.fit_pex(responses, out=tmp_path / "pex.parquet")
     rockfrag.fit_pro(responses, out=tmp_path / "pro.parquet")
     fitted = rockfrag.Object(fits=tmp_path, suite="csgm", **FRAME).probability(0.5, 0.6)
-    row = rockfrag.evaluate(pga=0.5, pgv=0.6, fits=tmp_path, suite="csgm", structure=FRAME).to_polars().row(0, named=True)
-    expect_same(fitted, row, STATES)
+    rows = rockfrag.evaluate(pga=0.5, pgv=0.6, fits=tmp_path, suite="csgm", structure=FRAME).to_polars()
+    expect_same(fitted, rows.row(0, named=True), STATES)
     assert fitted.p_overturning != rockfrag.Object(suite="csgm", **FRAME).probability(0.5, 0.6).p_overturning
 
 

@@ -111,7 +111,11 @@ def call(
     return done
 
 
-def teller(name: str, progress: bool | Callable[[int, int], object] | None) -> Callable[[int, int], object] | None:
+#: What is called as a stage runs, with the steps done and all.
+Told = Callable[[int, int], object]
+
+
+def teller(name: str, progress: bool | Told | None) -> Told | None:
     """What is called as a stage runs; of ``True`` a line on stderr that counts."""
 
     def count(done: int, total: int) -> None:
@@ -195,7 +199,8 @@ def line(option: Option) -> str:
 def listed(helps: Iterable[tuple[str, str]]) -> str:
     """Names with their whole help, wrapped."""
     texts = (" ".join(f"{name}: {help}".split()) for name, help in helps)
-    return "\n".join(textwrap.fill(text, WIDTH, subsequent_indent="    ", break_on_hyphens=False) for text in texts)
+    wrap = textwrap.TextWrapper(WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+    return "\n".join(map(wrap.fill, texts))
 
 
 def docstring(stage: Stage) -> str:
@@ -229,7 +234,8 @@ def type_of(option: Option) -> str:
     one = {"eta": "float | Literal['housner']", "wall": "bool | float | Literal['yes']"}.get(option.name, one)
     one = "bool" if option.kind == "flag" or option.name.startswith("fixed_to") else one
     one = f"{one} | str" if option.name in ("alpha", "alpha_sd", "target") else one
-    return "Any" if option.kind == "input" or one == "Any" else f"{one} | Sequence[{one}]" if option.many else one
+    one = "Any" if option.kind == "input" else one
+    return f"{one} | Sequence[{one}]" if option.many and one != "Any" else one
 
 
 def stub() -> str:
@@ -237,7 +243,8 @@ def stub() -> str:
     common = ["threads: int | None = ...", "force: bool = ...", "config: Path | None = ..."]
     common.append("progress: bool | Callable[[int, int], object] | None = ...")
     text = "from collections.abc import Sequence\nfrom os import PathLike\n"
-    text += "from typing import Any, Callable, Literal, TypedDict\nfrom ._result import Result\n\nPath = str | PathLike[str]\n"
+    text += "from typing import Any, Callable, Literal, TypedDict\nfrom ._result import Result\n\n"
+    text += "Path = str | PathLike[str]\n"
     stages = described()
     types = {option.name: type_of(option) for stage in stages for option in stage.named}
     text += "\nclass Fields(TypedDict, total=False):\n    name: str\n    count: int\n"

@@ -31,7 +31,7 @@ PLAIN = (float, int, type(None))
 
 @dataclass(eq=False, repr=False)
 class States(_plots.Shown):
-    """Probabilities of rocking; of failure, which is rocking beyond the limit state or overturning; of overturning.
+    """Probabilities of rocking; of failure (rocking beyond the limit state, or overturning); of overturning.
 
     In the paper 1 - P_nr, P_f and (1 - P_nr) P_ro. With 95 % limits, NaN where the model has none.
     """
@@ -68,7 +68,7 @@ class Probabilities(States):
 
 @dataclass(eq=False, repr=False)
 class Rate(States):
-    """How often an object rocks, fails and overturns at a site, with 95 % limits; NaN where it is not known."""
+    """How often an object rocks, fails and overturns at a site, with 95 % limits; NaN where not known."""
 
     #: Mean annual rates.
     rocking_per_year: float
@@ -93,7 +93,7 @@ class Fragility(States):
     #: The peak: pga, in g, or pgv, in m/s; and its values.
     over: str
     intensity: Floats
-    #: ``overturning_theta``, ``failure_beta`` ...: medians and dispersions, with limits, as evaluate has them.
+    #: ``overturning_theta``, ``failure_beta`` ...: medians and dispersions, with limits, as of evaluate.
     row: dict[str, float]
     warnings: list[str]
 
@@ -108,15 +108,16 @@ class Fragility(States):
     def __repr__(self) -> str:
         name, unit = self.label.split(", ")
         ends = (self.row[f"overturning_theta{end}"] for end in ("", "_low", "_high"))
-        half, low, high = [f"{'> ' * (end != end)}{np.fmin(end, self.intensity[-1]):.3g} {unit}" for end in ends]
+        last = self.intensity[-1]
+        half, low, high = [f"{'> ' * (end != end)}{np.fmin(end, last):.3g} {unit}" for end in ends]
         return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
 
 
 class Object:
     """An object, by its fields; lengths in m.
 
-    ``limit_state`` is the rotation over the slenderness beyond which it fails. The universal surface predicts,
-    for motions of the kind ``suite`` (recorded, csgm, pulse or hfc); or the fits in the folder ``fits``.
+    ``limit_state`` is the rotation over the slenderness beyond which it fails. The universal surface
+    predicts, for motions of the kind ``suite`` (recorded, csgm, pulse or hfc); or the fits in the folder ``fits``.
     """
 
     def __init__(
@@ -183,11 +184,11 @@ class Object:
     ) -> Fragility:
         """The fragility over PGV (m/s) or PGA (g) under the motions of typical sites.
 
-        The magnitude, Vs30 (m/s) and PGV / PGA (s) narrow these; ``evaluate(over=..., hazard=...)`` is for a site.
+        Magnitude, Vs30 (m/s) and PGV / PGA (s) narrow these; ``evaluate(over=..., hazard=...)`` is for a site.
         """
         columns, warnings = self._object.fragility(over, magnitude, vs30, ratio)
         _bridge.warn(warnings)
-        arrays = {name: np.frombuffer(column) for name, column in columns.items() if isinstance(column, bytes)}
+        arrays = {name: np.frombuffer(of) for name, of in columns.items() if isinstance(of, bytes)}
         row = {name: float(column[0]) for name, column in arrays.items() if len(column) == 1}
         points = {field.name: arrays[field.name] for field in fields(States)}
         intensity = arrays["pga_g" if over == "pga" else "pgv_m_s"]
@@ -220,7 +221,7 @@ Object.__doc__ = f"{cleandoc(Object.__doc__ or '')}\n\n{_bridge.listed(_rockfrag
 
 
 def fragility(over: Literal["pga", "pgv"] = "pgv", **options: Any) -> Fragility:
-    """The fragility of the :class:`Object` of these fields: its options are those of :meth:`Object.fragility` too."""
+    """The fragility of an object of these fields; it also takes the options of :meth:`Object.fragility`."""
     sites = {name: options.pop(name) for name in ("magnitude", "vs30", "ratio") if name in options}
     return Object(**options).fragility(over, **sites)
 
@@ -244,12 +245,12 @@ def simulate_motions(
 ) -> Responses:
     """Simulates objects under records, with the solver of :func:`rockfrag.simulate`.
 
-    ``accelerations`` (m/s2) is an array of the shape (records, samples), or one array a record; ``dt`` is their time
-    step (s), or one a record. An object rocks in its weaker direction.
+    ``accelerations`` (m/s2) is an array of the shape (records, samples), or one array a record; ``dt`` is
+    their time step (s), or one a record. An object rocks in its weaker direction.
     """
     records, steps = [known(record) for record in accelerations], known(dt).ravel().tolist()
     if any(record.ndim != 1 for record in records) or len(steps) not in (1, len(records)):
-        raise ValueError("expected accelerations of the shape (records, samples), and dt of all or of each record")
+        raise ValueError("expected accelerations of the shape (records, samples), and dt of all or each")
     solved = [each._object for each in ([objects] if isinstance(objects, Object) else objects)]
     told = _bridge.teller("simulate_motions", progress)
     sent = [record.tobytes() for record in records]

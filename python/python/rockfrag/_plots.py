@@ -77,7 +77,8 @@ STATES = {"p_rocking": "rocks", "p_failure": "overturns, or rocks too far", "p_o
 def fragility(x: Floats, label: str, of: Any, on: Any = None) -> Any:
     """The probabilities of overturning and of failure, with their limits."""
     ends = ("", "_low", "_high")
-    named: Any = [(STATES[p], *(np.ravel(getattr(of, p + end)) for end in ends)) for p in ("p_overturning", "p_failure")]
+    states = ("p_overturning", "p_failure")
+    named: Any = [(STATES[p], *(np.ravel(getattr(of, p + end)) for end in ends)) for p in states]
     return curves(x, label, named, on)
 
 

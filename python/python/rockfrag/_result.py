@@ -65,12 +65,14 @@ class Result:
     def __len__(self) -> int:
         return int(json.loads(_rockfrag.inspect(self._table()))["rows"])
 
-    def to_numpy(self, columns: Sequence[str] | None = None, rows: int | None = None) -> dict[str, NDArray[Any]]:
+    def to_numpy(
+        self, columns: Sequence[str] | None = None, rows: int | None = None
+    ) -> dict[str, NDArray[Any]]:
         """Its columns, or those named, as arrays: numbers with NaN for none, else objects."""
         found = _rockfrag.read_columns(self._table(), None if columns is None else list(columns), rows)
         unknown = next((name for name in columns or () if name not in found), None)
         if unknown is not None:
-            raise KeyError(f"{self.stage} has no column '{unknown}'; expected one of {', '.join(self.columns)}")
+            raise KeyError(f"no column '{unknown}'; expected one of {', '.join(self.columns)}")
         return {name: array(column) for name, column in found.items()}
 
     def head(self, rows: int = 5) -> dict[str, NDArray[Any]]:
