@@ -1,23 +1,33 @@
-//! One motion through one structure, and the lognormal curve of given outcomes. Arrays are the bytes of f64.
+//! Motions through objects, and the lognormal curve of given outcomes. Arrays are the bytes of f64.
+
+use std::sync::atomic::Ordering;
 
 use pyo3::prelude::*;
+use pyo3::pybacked::PyBackedBytes;
 use pyo3::types::{PyBytes, PyDict};
+use rayon::prelude::*;
 use rockfrag::pipeline::UsageError;
+use rockfrag::pipeline::context::Common;
 use rockfrag::table::responses::OutcomeWord;
 use rockfrag_core::fragility::{DeltaEstimate, beta, mu};
-use rockfrag_core::object::{Object, structure_warnings};
+use rockfrag_core::object::structure_warnings;
 use rockfrag_core::records::implausibility::implausibility;
-use rockfrag_core::rocking::{Ground, Record, TracePoint, simulate, trace};
+use rockfrag_core::rocking::{
+    Ground, Outcome, Problem, Record, Response, Structure, TracePoint, simulate, simulate_all, trace,
+};
 use rockfrag_core::statistics::distributions::t_quantile;
 use rockfrag_core::statistics::{FitStatus, Interval, clustered_probit, delta_variance, normal};
 use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
+use crate::objects::PyObject;
 use crate::run::run;
 
 /// The largest acceleration, g, and the longest time step, s, of a motion that is not in a wrong unit.
 const MOST_G: f64 = 20.0;
 const LONGEST_STEP_S: f64 = 0.1;
+/// Motions that a thread takes at once, as of simulate.
+const CHUNK: usize = 32;
 
 /// Numbers from their bytes.
 pub fn numbers(bytes: &[u8]) -> Vec<f64> {
@@ -29,41 +39,37 @@ pub fn bytes<'py>(py: Python<'py>, numbers: impl Iterator<Item = f64>) -> Bound<
     PyBytes::new(py, &numbers.flat_map(f64::to_ne_bytes).collect::<Vec<u8>>())
 }
 
-/// Simulates a structure, written as on the command line (`p=1,alpha=0.15,eta=0.92`), under samples (m/s2)
-/// every `dt_s` s with `tail_s` s of quiet after them. Returns the rotation at every sample and event, and
-/// the outcome.
+/// A record that the solvers take: in m/s2, with a step of a record.
+fn record(acceleration: &[f64], dt_s: f64) -> Result<Record<'_>, String> {
+    let pga_g = acceleration.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / G_M_S2;
+    match () {
+        () if pga_g > MOST_G && pga_g.is_finite() => {
+            Err(format!("acceleration reaches {pga_g:.1} g; expected m/s2, up to {MOST_G} g"))
+        }
+        () if dt_s > LONGEST_STEP_S => {
+            Err(format!("dt is {dt_s} s; expected at most {LONGEST_STEP_S} s: is it in ms?"))
+        }
+        () => Record::new(acceleration, dt_s).map_err(|error| error.to_string()),
+    }
+}
+
+/// Simulates an object under samples (m/s2) every `dt_s` s with `tail_s` s of quiet after them. Returns the
+/// rotation at every sample and event, and the outcome.
 #[pyfunction]
 pub fn simulate_motion<'py>(
     py: Python<'py>,
+    object: &PyObject,
     acceleration: &[u8],
     dt_s: f64,
-    structure: &str,
     tail_s: f64,
 ) -> PyResult<Bound<'py, PyDict>> {
+    let acceleration = numbers(acceleration);
     let solve = || -> anyhow::Result<_> {
-        let usage = |error: &dyn ToString| UsageError::because(error.to_string());
-        let object: Object = structure.parse().map_err(|error: String| usage(&error))?;
-        if object.place.level.or(object.place.period).is_some() {
-            return Err(usage(&"level, period: simulate_motion takes the motion of the floor itself"));
-        }
-        if object.place.wall.is_some() {
-            return Err(usage(&"wall: simulate_motion rocks it to both sides"));
-        }
-        let structure = object.sides().map_err(|reason| usage(&reason))?.swap_remove(0).structure;
+        let structure = object.structure()?;
         if !(0.0..=1000.0).contains(&tail_s) {
-            return Err(usage(&format!("tail is {tail_s}; expected 0 to 1000 s")));
+            return Err(UsageError::because(format!("tail is {tail_s}; expected 0 to 1000 s")));
         }
-        let acceleration = numbers(acceleration);
-        let pga_g = acceleration.iter().fold(0.0_f64, |most, a| most.max(a.abs())) / G_M_S2;
-        if pga_g > MOST_G {
-            return Err(usage(&format!(
-                "acceleration reaches {pga_g:.1} g; expected m/s2, up to {MOST_G} g"
-            )));
-        }
-        if dt_s > LONGEST_STEP_S {
-            return Err(usage(&format!("dt is {dt_s} s; expected at most {LONGEST_STEP_S} s: is it in ms?")));
-        }
-        let record = Record::new(&acceleration, dt_s).map_err(|error| usage(&error))?;
+        let record = record(&acceleration, dt_s).map_err(UsageError::because)?;
         let points = trace(&structure, &record, tail_s).1;
         let ground = record.ground_at(points.iter().map(|point| point.time_s));
         Ok((simulate(&structure, &record), points, ground, structure))
@@ -80,15 +86,54 @@ pub fn simulate_motion<'py>(
     let events = points.iter().filter_map(|point| Some((point.time_s, point.solver_event?.to_string())));
     result.set_item("events", events.collect::<Vec<_>>())?;
     result.set_item("outcome", OutcomeWord::from(response.outcome).to_string())?;
-    result.set_item("demand", response.outcome.demand())?;
+    result.set_item("edp", response.outcome.demand())?;
     result.set_item("impacts", response.impacts)?;
     result.set_item("p", structure.p_rad_s)?;
     result.set_item("alpha", structure.alpha_rad)?;
     result.set_item("eta", structure.eta)?;
-    let implausible = implausibility(&numbers(acceleration), dt_s).map(|of| of.to_string());
+    let implausible = implausibility(&acceleration, dt_s).map(|of| of.to_string());
     let warnings = structure_warnings(&structure).into_iter().map(|warning| warning.text().to_string());
     result.set_item("warnings", implausible.into_iter().chain(warnings).collect::<Vec<_>>())?;
     Ok(result)
+}
+
+/// Simulates all objects under all records (m/s2), each with its `dt_s` or the only one: for each record and
+/// object in turn |theta|max / alpha, NaN where it overturns, and 1 where it does.
+#[pyfunction]
+pub fn simulate_motions<'py>(
+    py: Python<'py>,
+    records: Vec<PyBackedBytes>,
+    dt_s: Vec<f64>,
+    objects: Vec<PyRef<PyObject>>,
+    threads: Option<usize>,
+    progress: Option<Py<PyAny>>,
+) -> PyResult<[Bound<'py, PyBytes>; 2]> {
+    let structures =
+        objects.iter().map(|object| object.structure()).collect::<anyhow::Result<Vec<Structure>>>();
+    let structures = structures.map_err(|error| to_python(&error))?;
+    let work = move |common: Common| {
+        common.observed.total.store(records.len(), Ordering::Relaxed);
+        let all = records.par_chunks(CHUNK).enumerate().map(|(chunk, some)| {
+            common.observed.expect_running()?;
+            let samples: Vec<Vec<f64>> = some.iter().map(|bytes| numbers(bytes)).collect();
+            let checked = samples.iter().zip(CHUNK * chunk..).map(|(samples, at)| {
+                let found = record(samples, dt_s[if dt_s.len() == 1 { 0 } else { at }]);
+                found.map_err(|problem| UsageError::because(format!("accelerations[{at}]: {problem}")))
+            });
+            let checked = checked.collect::<anyhow::Result<Vec<Record>>>()?;
+            let pairs = checked
+                .iter()
+                .flat_map(|&record| structures.iter().map(move |structure| Problem { structure, record }));
+            let responses = simulate_all(&pairs.collect::<Vec<_>>());
+            common.observed.done.fetch_add(some.len(), Ordering::Relaxed);
+            Ok(responses)
+        });
+        Ok(all.collect::<anyhow::Result<Vec<Vec<Response>>>>()?.concat())
+    };
+    let responses = run(py, threads, progress.as_ref(), work)?;
+    let edp = responses.iter().map(|response| response.outcome.demand().unwrap_or(f64::NAN));
+    let overturned = responses.iter().map(|response| u8::from(response.outcome == Outcome::Overturned));
+    Ok([bytes(py, edp), PyBytes::new(py, &overturned.collect::<Vec<u8>>())])
 }
 
 /// Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22). Returns the status, the
@@ -141,7 +186,7 @@ pub fn fit_curve<'py>(
     result.set_item("largest_difference", probit.largest_difference.unwrap_or(f64::NAN))?;
     result.set_item("coefficients", b)?;
     result.set_item("covariance", covariance)?;
-    result.set_item("quantile", quantile)?;
+    result.set_item("errors_to_limits", quantile)?;
     Ok(result)
 }
 

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //! stages    any stage: options as JSON in, paths out; runs, inspect and the command itself
-//! arrays    one motion, one structure; the lognormal curve of given outcomes
+//! objects   objects and sites of the library: probabilities, rates, fragilities
+//! arrays    motions through objects; the lognormal curve of given outcomes
 //! table     Arrow streams of Python to and from Parquet files
 //! run       the GIL released, threads, progress, Ctrl-C
 //! error     errors as Python's exceptions
@@ -13,6 +14,7 @@ use rockfrag::source::silence_decoder_panics;
 
 mod arrays;
 mod error;
+mod objects;
 mod run;
 mod stages;
 mod table;
@@ -22,11 +24,13 @@ mod _rockfrag {
     use super::*;
 
     #[pymodule_export]
-    use crate::arrays::{fit_curve, normal_cdf, simulate_motion};
+    use crate::arrays::{fit_curve, normal_cdf, simulate_motion, simulate_motions};
+    #[pymodule_export]
+    use crate::objects::{PyObject, Site, fields};
     #[pymodule_export]
     use crate::stages::{call, command, describe, inspect, run_pipeline};
     #[pymodule_export]
-    use crate::table::{read_numbers, read_table, write_numbers, write_table};
+    use crate::table::{read_columns, read_table, write_table};
 
     #[pymodule_init]
     fn init(module: &Bound<PyModule>) -> PyResult<()> {

@@ -1,6 +1,5 @@
 //! Tables between Python and Parquet files, by the C streams of Arrow.
 
-use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -8,19 +7,20 @@ use std::sync::Arc;
 use anyhow::Context as _;
 use arrow_array::cast::AsArray;
 use arrow_array::ffi_stream::{ArrowArrayStreamReader, FFI_ArrowArrayStream};
-use arrow_array::{ArrayRef, Float64Array, RecordBatch, RecordBatchReader};
+use arrow_array::{ArrayRef, RecordBatch, RecordBatchReader};
 use arrow_schema::{ArrowError, DataType, Schema, SchemaRef};
+use arrow_select::concat::concat_batches;
 use arrow_select::take::take;
 use parquet::arrow::ArrowWriter;
 use parquet::arrow::arrow_reader::ParquetRecordBatchReaderBuilder;
 use parquet::file::properties::WriterProperties;
 use pyo3::prelude::*;
-use pyo3::pybacked::PyBackedBytes;
-use pyo3::types::{PyBytes, PyCapsule};
+use pyo3::types::{PyCapsule, PyDict};
+use rockfrag::table::columns::{numbers as numbers_of, texts};
 use rockfrag::table::file::ParquetTable;
 use rockfrag::table::frame::{self, Format};
 
-use crate::arrays::{bytes, numbers};
+use crate::arrays::bytes;
 use crate::error::to_python;
 
 /// Rows of a row group: of lists, such as the samples of motions, and of numbers.
@@ -56,37 +56,53 @@ pub fn write_table(py: Python, capsule: &Bound<PyCapsule>, path: PathBuf) -> PyR
     written.map_err(|error| to_python(&error))
 }
 
-/// Writes columns, given as the bytes of f64, to a Parquet file.
+/// The columns of a Parquet file whose names `wanted` has, if it is given, of at most so many rows: numbers as
+/// the bytes of f64, NaN where there is none; texts, or lists of such bytes.
 #[pyfunction]
-pub fn write_numbers(columns: BTreeMap<String, PyBackedBytes>, path: PathBuf) -> PyResult<()> {
-    let column = |(name, bytes): (String, PyBackedBytes)| {
-        (name, Arc::new(Float64Array::from(numbers(&bytes))) as ArrayRef)
-    };
-    let written = RecordBatch::try_from_iter(columns.into_iter().map(column)).map_err(anyhow::Error::from);
-    let written = written.and_then(|batch| write(batch.schema(), [Ok(batch)], &path));
-    written.map_err(|error| to_python(&error))
-}
-
-/// The columns of a Parquet file whose names `wanted` has, as the bytes of f64; NaN where there is no number.
-#[pyfunction]
-pub fn read_numbers<'py>(
+pub fn read_columns<'py>(
     py: Python<'py>,
     path: PathBuf,
-    wanted: Vec<String>,
-) -> PyResult<BTreeMap<String, Bound<'py, PyBytes>>> {
-    let mut columns: BTreeMap<String, Vec<f64>> = wanted.into_iter().map(|name| (name, Vec::new())).collect();
-    let read = |columns: &mut BTreeMap<String, Vec<f64>>| -> anyhow::Result<()> {
-        for batch in ParquetTable::open(&path)?.batches(|_| true) {
-            let batch = batch?;
-            for (name, values) in columns.iter_mut() {
-                let numbers = batch.numbers(name)?.into_iter();
-                values.extend(numbers.map(|number| number.unwrap_or(f64::NAN)));
-            }
-        }
-        Ok(())
+    wanted: Option<Vec<String>>,
+    rows: Option<usize>,
+) -> PyResult<Bound<'py, PyDict>> {
+    let read = || -> anyhow::Result<_> {
+        let place = || path.display().to_string();
+        let file = ParquetRecordBatchReaderBuilder::try_new(File::open(&path).with_context(place)?)?;
+        let (schema, most) = (file.schema().clone(), rows.unwrap_or(usize::MAX));
+        let batches = file.with_limit(most).build()?.collect::<Result<Vec<_>, _>>()?;
+        concat_batches(&schema, &batches).with_context(place)
     };
-    py.detach(|| read(&mut columns)).map_err(|error| to_python(&error))?;
-    Ok(columns.into_iter().map(|(name, values)| (name, bytes(py, values.into_iter()))).collect())
+    let table = py.detach(read).map_err(|error| to_python(&error))?;
+    let found = PyDict::new(py);
+    columns(&found, &table, &|name| {
+        wanted.as_ref().is_none_or(|wanted| wanted.iter().any(|one| one == name))
+    })?;
+    Ok(found)
+}
+
+/// Adds columns of a table.
+pub fn columns(found: &Bound<PyDict>, table: &RecordBatch, is_wanted: &dyn Fn(&str) -> bool) -> PyResult<()> {
+    let py = found.py();
+    let of_numbers = |column: &ArrayRef| {
+        let values = numbers_of(column)?.into_iter().map(|number| number.unwrap_or(f64::NAN));
+        Some(bytes(py, values))
+    };
+    let schema = table.schema();
+    let named = schema.fields().iter().map(|field| field.name()).zip(table.columns());
+    for (name, column) in named.filter(|(name, _)| is_wanted(name)) {
+        let flags = column.as_boolean_opt().map(|flags| {
+            bytes(py, flags.iter().map(|flag| flag.map_or(f64::NAN, |flag| f64::from(u8::from(flag)))))
+        });
+        if let Some(numbers) = flags.or_else(|| of_numbers(column)) {
+            found.set_item(name, numbers)?;
+        } else if let Some(lists) = column.as_list_opt::<i32>() {
+            let lists: Vec<_> = lists.iter().map(|list| of_numbers(&list?)).collect();
+            found.set_item(name, lists)?;
+        } else {
+            found.set_item(name, texts(column))?;
+        }
+    }
+    Ok(())
 }
 
 fn write(

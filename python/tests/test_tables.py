@@ -1,5 +1,6 @@
 """Tables come and go as Arrow."""
 
+import numpy as np
 import pandas
 import polars
 import pyarrow
@@ -36,6 +37,10 @@ def test_a_table_out_is_the_same_in_all_libraries(responses):
     assert frame.columns == table.column_names == list(data.columns)
     assert_frame_equal(polars.DataFrame(table), frame)
     assert_frame_equal(polars.from_pandas(data).cast(frame.schema), frame)
+    assert responses.columns == frame.columns and len(responses) == frame.height
+    arrays = responses.head(3)
+    assert arrays["outcome"].tolist() == frame["outcome"][:3].to_list()
+    assert np.array_equal(responses.to_numpy(["edp"])["edp"], frame["edp"].to_numpy(), equal_nan=True)
     assert table.schema.field("pga_m_s2").metadata[b"unit"] == b"m/s2"
     assert_frame_equal(polars.read_parquet(responses.path), frame)
 
@@ -44,7 +49,7 @@ def test_motions_of_ones_own_are_solved_unrounded():
     sine = [4.0 * (-1) ** (k // 40) for k in range(400)]
     own = polars.DataFrame({"motion_id": ["a"], "dt_s": [0.01], "acceleration_m_s2": [sine]})
     edp = rockfrag.simulate(own, structure=FRAME).to_polars()["edp"][0]
-    assert edp == rockfrag.simulate_motion(sine, 0.01, p=1.5, alpha=0.15, eta=0.92).demand
+    assert edp == rockfrag.Object(**FRAME).response(sine, 0.01).edp
 
 
 def test_lists_of_people_are_tables_too(motions):
@@ -87,5 +92,5 @@ def test_a_result_is_not_that_of_another_call(tmp_path, monkeypatch, motions):
 
 
 def test_a_table_that_cannot_be_right_is_told_without_a_path(motions):
-    with pytest.raises(rockfrag.Error, match="^in.parquet: no column 'dt_s'"):
+    with pytest.raises(rockfrag.Error, match="^input: no column 'dt_s'"):
         rockfrag.simulate(motions.to_polars().drop("dt_s"), structure=FRAME)

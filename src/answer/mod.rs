@@ -272,7 +272,7 @@ impl Detail {
 }
 
 impl FragilityColumns {
-    fn new(fragility: &Fragility) -> FragilityColumns {
+    pub fn new(fragility: &Fragility) -> FragilityColumns {
         let (_, unit, _) = fragility.over.name_and_unit();
         let [failure, overturning] = [fragility.failure, fragility.overturning].map(|of| {
             let [at_16, theta, at_84] =

@@ -86,13 +86,13 @@ struct PipelineFile {
 
 impl PipelineFile {
     fn read(path: &Path) -> anyhow::Result<PipelineFile> {
-        let read = PipelineFile::parse(path).map_err(UsageError::Mistake);
-        read.with_context(|| path.display().to_string())
+        let place = || path.display().to_string();
+        let missing = || UsageError::Mistake(format!("{} (`rockfrag init` writes one)", place()));
+        let bytes = source::read(path).with_context(missing)?;
+        PipelineFile::parse(path, bytes).map_err(UsageError::Mistake).with_context(place)
     }
 
-    fn parse(path: &Path) -> Result<PipelineFile, String> {
-        let text = source::read(path);
-        let text = text.map_err(|error| format!("{error}; `rockfrag init` writes one to start from"))?;
+    fn parse(path: &Path, text: Vec<u8>) -> Result<PipelineFile, String> {
         let text = String::from_utf8(text).map_err(|_| "not text in UTF-8")?;
         let mut sections = match texts(&text)? {
             Value::Object(sections) => sections,

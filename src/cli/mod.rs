@@ -3,6 +3,7 @@
 
 pub mod calls;
 
+use std::any::TypeId;
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::io::{ErrorKind, Write, stderr, stdout};
@@ -12,8 +13,12 @@ use std::time::Instant;
 use anyhow::Context as _;
 use clap::{Arg, ArgAction, Command, FromArgMatches, Parser, value_parser};
 use clap_complete::Shell;
+use rockfrag_core::fragility::{MotionKind, Peak};
+use rockfrag_core::motion::Suite;
+use rockfrag_core::object::Base;
 use rockfrag_core::warning::Warnings;
 use serde_json::{Value, json};
+use strum::VariantArray;
 
 use crate::inputs::Reading;
 use crate::number::{LONGEST_TEXT, shown, visible};
@@ -22,6 +27,7 @@ use crate::pipeline::call::{Call, Planned, is_view};
 use crate::pipeline::context::{COMMON, Common, threads_of};
 use crate::pipeline::options::{SeveralErrors, is_path, name_of, on_line};
 use crate::source::silence_decoder_panics;
+use crate::stages::shared::model_args::ModelName;
 use crate::stages::{self, StageKind, init, inspect};
 use crate::table::frame::Format;
 use crate::table::provenance::{Provenance, on_command_line};
@@ -112,11 +118,35 @@ fn option(arg: &Arg) -> Value {
     json!({
         "name": name,
         "kind": kind,
+        "type": type_of(arg),
+        "many": arg.get_value_delimiter().is_some() || matches!(arg.get_action(), ArgAction::Append),
         "default": arg.get_default_values().first().map_or("".into(), |text| text.to_string_lossy()),
         "help": arg.get_help().map(ToString::to_string),
         "positional": arg.is_positional(),
         "common": arg.get_help_heading() == Some(COMMON),
     })
+}
+
+/// What an option takes: float, int, path, one of some words, or text.
+fn type_of(arg: &Arg) -> Value {
+    fn words<T: VariantArray + ToString + 'static>() -> (TypeId, Value) {
+        (TypeId::of::<T>(), T::VARIANTS.iter().map(T::to_string).collect())
+    }
+    let known = [
+        (TypeId::of::<f64>(), json!("float")),
+        (TypeId::of::<u32>(), json!("int")),
+        (TypeId::of::<u64>(), json!("int")),
+        (TypeId::of::<usize>(), json!("int")),
+        (TypeId::of::<PathBuf>(), json!("path")),
+        words::<Base>(),
+        words::<Format>(),
+        words::<ModelName>(),
+        words::<MotionKind>(),
+        words::<Peak>(),
+        words::<Suite>(),
+    ];
+    let id = arg.get_value_parser().type_id();
+    known.into_iter().find(|(known, _)| id == *known).map_or(json!("text"), |(_, words)| words)
 }
 
 /// Runs a command line, program name first. Returns the exit code: 0 success, 1 failure, 2 wrong usage.

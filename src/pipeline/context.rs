@@ -82,7 +82,7 @@ impl Observed {
         }
     }
 
-    fn expect_running(&self) -> anyhow::Result<()> {
+    pub fn expect_running(&self) -> anyhow::Result<()> {
         anyhow::ensure!(!self.stop.load(Ordering::Relaxed), "interrupted");
         Ok(())
     }

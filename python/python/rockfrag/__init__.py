@@ -1,5 +1,11 @@
 """Dimensionless fragility curves for rocking structures in near-fault earthquakes.
 
+An object and a site are asked directly, in arrays::
+
+    cabinet = rockfrag.Object(width=0.5, height=2.0)
+    cabinet.probability(pga=0.5, pgv=[0.4, 0.6]).p_overturning
+    cabinet.rate(rockfrag.Site.read("pga.csv"), years=50)
+
 Each stage of the command is a function with the command's options::
 
     motions = rockfrag.synthesize_motions(rockfrag.sample_scenarios(samples=10))
@@ -19,10 +25,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from . import _bridge, _rockfrag
-from ._arrays import Fragility, FragilityCurve, Probabilities, Response
-from ._arrays import fit_fragility, fragility, probability, simulate_motion
+from ._arrays import FragilityCurve, Response, fit_fragility
+from ._objects import Fragility, Object, Probabilities, Rate, Responses, fragility, simulate_motions
 from ._result import Result
-from ._rockfrag import Error, __version__
+from ._rockfrag import Error, Site, __version__
 from ._stages import *
 
 if TYPE_CHECKING:
@@ -30,9 +36,13 @@ if TYPE_CHECKING:
     def __getattr__(name: str) -> Callable[..., Result]: ...
 
 
-__all__ = ["Error", "Fragility", "FragilityCurve", "Probabilities", "Response", "Result", "__version__"]
-__all__ += ["fit_fragility", "fragility", "inspect", "probability", "run", "simulate_motion"]
+__all__ = ["Error", "Fragility", "FragilityCurve", "Object", "Probabilities", "Rate", "Response", "Responses", "Result"]
+__all__ += ["Site", "__version__", "fit_fragility", "fragility", "inspect", "run", "simulate_motions"]
 __all__ += list(_bridge.functions)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "ray"]
 
 
 def run(
@@ -42,10 +52,10 @@ def run(
     seed: int | None = None,
     force: bool = False,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: bool | Callable[[int, int], object] | None = None,
 ) -> dict[str, Result]:
     """Runs all stages of a pipeline file, skipping what is up to date; gives their results by name."""
-    made = _rockfrag.run_pipeline(config, out, seed, force, threads, progress)
+    made = _rockfrag.run_pipeline(config, out, seed, force, threads, _bridge.teller("run", progress))
     return {stage[0].replace("-", "_"): _bridge.result(stage) for stage in made}
 
 

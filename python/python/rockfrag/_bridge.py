@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -32,6 +33,9 @@ class Option(NamedTuple):
     name: str
     #: flag, value, or of paths: input, output.
     kind: str
+    #: float, int, path, text, or a list of the words that it may be; whether it takes several.
+    type: str | list[str]
+    many: bool
     default: str
     help: str
     positional: bool
@@ -77,7 +81,7 @@ def call(
     *given: object,
     out: str | os.PathLike[str] | None = None,
     threads: int | None = None,
-    progress: Callable[[int, int], object] | None = None,
+    progress: bool | Callable[[int, int], object] | None = None,
     **options: object,
 ) -> Result:
     """Runs a stage on tables and files."""
@@ -100,20 +104,35 @@ def call(
                 text = json.dumps(words, allow_nan=False, default=plain)
             except ValueError:
                 raise ValueError(f"{stage.name}: an option is NaN or infinite; expected finite numbers") from None
-            made = _rockfrag.call(stage.command, text, threads, progress)
+            made = _rockfrag.call(stage.command, text, threads, teller(stage.name, progress))
         # Where warnings are errors, the folder goes.
         done = result(made, folder)
         failed.pop_all()
     return done
 
 
+#: What is called as a stage runs, with the steps done and all.
+Told = Callable[[int, int], object]
+
+
+def teller(name: str, progress: bool | Told | None) -> Told | None:
+    """What is called as a stage runs; of ``True`` a line on stderr that counts."""
+
+    def count(done: int, total: int) -> None:
+        end = "\n" if done == total > 0 else ""
+        print(f"\r{name}: {done:,} of {total:,}", end=end, file=sys.stderr, flush=True)
+
+    return count if progress is True else progress or None
+
+
 @contextlib.contextmanager
 def errors_without(folder: str) -> Iterator[None]:
-    """Errors do not name the temporary folder of a table that was given without a path."""
+    """Errors name the argument of a table that was given without a path, not its temporary file."""
     try:
         yield
     except (_rockfrag.Error, ValueError, FileNotFoundError) as error:
-        raise type(error)(str(error).replace(f"{folder}{os.sep}", "")) from None
+        text = re.sub(re.escape(f"{folder}{os.sep}") + r"([\w-]+)\.(parquet|csv)", r"\1", str(error))
+        raise type(error)(re.sub(r"\bin: ", "input: ", text) if text != str(error) else text) from None
 
 
 def flag(name: str) -> str:
@@ -172,9 +191,16 @@ def plain(value: Any) -> object:
 
 
 def line(option: Option) -> str:
-    """An option with its default and meaning, on one line."""
+    """An option with its default and meaning."""
     default = " = False" if option.kind == "flag" else f" = {option.default}" if option.default else ""
-    return textwrap.shorten(f"{option.name}{default}: {option.help}", WIDTH, placeholder=" ...")
+    return listed([(f"{option.name}{default}", option.help)])
+
+
+def listed(helps: Iterable[tuple[str, str]]) -> str:
+    """Names with their whole help, wrapped."""
+    texts = (" ".join(f"{name}: {help}".split()) for name, help in helps)
+    wrap = textwrap.TextWrapper(WIDTH, subsequent_indent="    ", break_on_hyphens=False)
+    return "\n".join(map(wrap.fill, texts))
 
 
 def docstring(stage: Stage) -> str:
@@ -201,17 +227,30 @@ def function(stage: Stage) -> Callable[..., Result]:
     return run
 
 
+def type_of(option: Option) -> str:
+    """What an option takes, for type checkers. Angles may have a unit, a target has its percent sign."""
+    plain = {"float": "float", "int": "int", "path": "Path", "text": "Any"}
+    one = plain[option.type] if isinstance(option.type, str) else f"Literal{option.type}"
+    one = {"eta": "float | Literal['housner']", "wall": "bool | float | Literal['yes']"}.get(option.name, one)
+    one = "bool" if option.kind == "flag" or option.name.startswith("fixed_to") else one
+    one = f"{one} | str" if option.name in ("alpha", "alpha_sd", "target") else one
+    one = "Any" if option.kind == "input" else one
+    return f"{one} | Sequence[{one}]" if option.many and one != "Any" else one
+
+
 def stub() -> str:
     """The functions with all their options, for editors and type checkers; the wheel has it as ``_stages.pyi``."""
-    common = [
-        "threads: int | None = ...",
-        "force: bool = ...",
-        "config: str | PathLike[str] | None = ...",
-        "progress: Callable[[int, int], object] | None = ...",
-    ]
-    text = "from os import PathLike\nfrom typing import Any, Callable\nfrom ._result import Result\n"
-    for stage in described():
-        own = [f"{option.name}: {'bool' if option.kind == 'flag' else 'Any'} = ..." for option in stage.named]
+    common = ["threads: int | None = ...", "force: bool = ...", "config: Path | None = ..."]
+    common.append("progress: bool | Callable[[int, int], object] | None = ...")
+    text = "from collections.abc import Sequence\nfrom os import PathLike\n"
+    text += "from typing import Any, Callable, Literal, TypedDict\nfrom ._result import Result\n\n"
+    text += "Path = str | PathLike[str]\n"
+    stages = described()
+    types = {option.name: type_of(option) for stage in stages for option in stage.named}
+    text += "\nclass Fields(TypedDict, total=False):\n    name: str\n    count: int\n"
+    text += "".join(f"    {name}: {types.get(name, 'float')} | None\n" for name, _ in _rockfrag.fields())
+    for stage in stages:
+        own = [f"{option.name}: {type_of(option)} | None = ..." for option in stage.named]
         given = ["input: Any = ...", "/"] if stage.input else []
         words = ", ".join([*given, "*", *own, *common])
         help = textwrap.indent(f'''"""{docstring(stage)}"""''', "    ")

@@ -54,21 +54,41 @@ def response(of: Response, on: Any = None) -> Any:
 
 
 def curves(
-    x: Floats, label: str, named: Sequence[tuple[str, Floats, Floats | None, Floats | None]], on: Any = None
+    x: Floats, label: str, named: Sequence[tuple[str, Floats, Floats, Floats]], on: Any = None
 ) -> Any:
     """Probabilities over an intensity, each with its limits as a band."""
     if on is None:
         on = axes(figsize=(6.0, 3.8))
     order = np.argsort(x)
     for (name, p, low, high), color in zip(named, (OVERTURNING, FAILURE, MARK), strict=False):
-        if low is not None and high is not None:
-            on.fill_between(x[order], low[order], high[order], color=color, alpha=0.18, lw=0)
+        on.fill_between(x[order], low[order], high[order], color=color, alpha=0.18, lw=0)
         on.plot(x[order], p[order], color=color, lw=1.6, label=name)
     on.set_xlabel(label)
     on.set_ylabel("probability")
     on.set_ylim(0.0, 1.0)
     on.legend(frameon=False)
     return on
+
+
+#: The limit states, in words.
+STATES = {"p_rocking": "rocks", "p_failure": "overturns, or rocks too far", "p_overturning": "overturns"}
+
+
+def fragility(x: Floats, label: str, of: Any, on: Any = None) -> Any:
+    """The probabilities of overturning and of failure, with their limits."""
+    ends = ("", "_low", "_high")
+    states = ("p_overturning", "p_failure")
+    named: Any = [(STATES[p], *(np.ravel(getattr(of, p + end)) for end in ends)) for p in states]
+    return curves(x, label, named, on)
+
+
+def line(of: Any, name: str) -> str:
+    """A probability, or the least and the largest of several, with the outermost limits."""
+    p, low, high = (np.ravel(getattr(of, name + end, np.nan)) for end in ("", "_low", "_high"))
+    p, low, high = p[~np.isnan(p)], low[~np.isnan(low)], high[~np.isnan(high)]
+    ends = " to ".join(sorted({f"{p.min():.3g}", f"{p.max():.3g}"}, key=float)) if p.size else "none"
+    limits = f"  (95 % limits {low.min():.3g} to {high.max():.3g})" if low.size else ""
+    return f"{name:13} {STATES[name]:<27} {ends}{limits}"
 
 
 class Shown:

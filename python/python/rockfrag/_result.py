@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import html
+import importlib
+import json
 import shutil
 import weakref
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _rockfrag
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     import pandas
     import polars
     import pyarrow
@@ -53,19 +57,37 @@ class Result:
     def __arrow_c_stream__(self, requested_schema: object = None) -> object:
         return _rockfrag.read_table(self._table())
 
-    def to_polars(self) -> polars.DataFrame:
-        import polars
+    @property
+    def columns(self) -> list[str]:
+        """The names of its columns."""
+        return list(_rockfrag.read_columns(self._table(), None, 0))
 
-        return polars.DataFrame(self)
+    def __len__(self) -> int:
+        return int(json.loads(_rockfrag.inspect(self._table()))["rows"])
+
+    def to_numpy(
+        self, columns: Sequence[str] | None = None, rows: int | None = None
+    ) -> dict[str, NDArray[Any]]:
+        """Its columns, or those named, as arrays: numbers with NaN for none, else objects."""
+        found = _rockfrag.read_columns(self._table(), None if columns is None else list(columns), rows)
+        unknown = next((name for name in columns or () if name not in found), None)
+        if unknown is not None:
+            raise KeyError(f"no column '{unknown}'; expected one of {', '.join(self.columns)}")
+        return {name: array(column) for name, column in found.items()}
+
+    def head(self, rows: int = 5) -> dict[str, NDArray[Any]]:
+        """Its first rows, as :meth:`to_numpy`."""
+        return self.to_numpy(rows=rows)
+
+    def to_polars(self) -> polars.DataFrame:
+        frame: polars.DataFrame = library("polars").DataFrame(self)
+        return frame
 
     def to_pyarrow(self) -> pyarrow.Table:
-        try:
-            import pyarrow
-        except ImportError as missing:
-            raise ImportError("pyarrow is not installed: pip install pyarrow") from missing
-        return pyarrow.table(self)
+        return library("pyarrow").table(self)
 
     def to_pandas(self) -> pandas.DataFrame:
+        library("pandas")
         return self.to_pyarrow().to_pandas()
 
     def __iter__(self) -> Iterator[dict[str, Any]]:
@@ -108,3 +130,22 @@ class Result:
 
 
 Result.__module__ = "rockfrag"
+
+
+def library(name: str) -> Any:
+    try:
+        return importlib.import_module(name)
+    except ImportError as missing:
+        raise ImportError(f"{name} is not installed: pip install {name}; to_numpy() needs none") from missing
+
+
+def array(column: bytes | list[Any]) -> NDArray[Any]:
+    """A column of numbers, or of texts and lists."""
+    # The stub is made by this package where there is no numpy.
+    import numpy as np
+
+    if isinstance(column, bytes):
+        return np.frombuffer(column)
+    found = np.empty(len(column), dtype=object)
+    found[:] = [np.frombuffer(each) if isinstance(each, bytes) else each for each in column]
+    return found

@@ -1,7 +1,7 @@
 //! What a text says of a curve, by one parse of all: headings, comments, titles, cells and names of files.
 
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::units::{Quantity, Unit};
+use rockfrag_core::units::{G_M_S2, Quantity, Unit};
 
 use super::told::Told;
 use crate::inputs::words::is_one_of;
@@ -21,6 +21,11 @@ pub enum Imt {
 
 impl Imt {
     pub const SA_1S: Imt = Imt::SaAt(1.0);
+
+    /// The unit of its curves, g or m/s, in SI units.
+    pub fn unit(self) -> f64 {
+        if self == Imt::Pgv { 1.0 } else { G_M_S2 }
+    }
 
     /// Whether two names may be of one measure.
     pub fn may_be(self, other: Imt) -> bool {

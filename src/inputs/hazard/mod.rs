@@ -66,7 +66,6 @@ impl Curve {
         grid: &Grid,
         file: &Path,
     ) -> Result<Curve> {
-        let (measure, statistic) = of;
         let unit = columns[at].of_values.unwrap_or(f64::NAN);
         let frequency = columns[rates].frequency.unwrap_or(Frequency::Rate);
         let points = grid.intensities(at, unit)?.into_iter().zip(grid.rows());
@@ -80,12 +79,37 @@ impl Curve {
             return Err(grid.refusal(pair[1].2, rates, expected));
         }
         let known = points.into_iter().map(|(value, rate, _)| (value, rate));
-        let curve = HazardCurve::new(known.filter(|(_, rate)| *rate > 0.0 && rate.is_finite()).collect())?;
-        let unit = if measure == Imt::Pgv { 1.0 } else { G_M_S2 };
+        let known = known.filter(|(_, rate)| *rate > 0.0 && rate.is_finite()).collect();
+        Curve::of_points(of, known, file)
+    }
+
+    /// Of intensities in SI units with their annual rates.
+    fn of_points(
+        (measure, statistic): (Imt, Statistic),
+        points: Vec<(f64, f64)>,
+        file: &Path,
+    ) -> Result<Curve> {
+        let (curve, unit) = (HazardCurve::new(points)?, measure.unit());
         let points: Vec<_> = curve.points().iter().map(|(value, rate)| (value / unit, *rate)).collect();
         validate_hazard(&measure.to_string(), &points).map_err(InputError::Implausible)?;
         Ok(Curve { measure, statistic, curve, file: file.display().to_string() })
     }
+}
+
+/// The hazard of mean curves: `pga` and `sa_1s` in g, `pgv` in m/s, with annual rates.
+pub fn of_points(curves: Vec<(&str, Vec<(f64, f64)>)>) -> Result<Hazard> {
+    let curve = |(name, points): (&str, Vec<(f64, f64)>)| {
+        let measure = match name {
+            "pga" => Imt::Pga,
+            "pgv" => Imt::Pgv,
+            _ => Imt::SA_1S,
+        };
+        let points = points.into_iter().map(|(value, rate)| (value * measure.unit(), rate)).collect();
+        let curve = Curve::of_points((measure, Statistic::Mean), points, Path::new(name));
+        curve.map_err(|error| error.in_file(Path::new(name)))
+    };
+    let curves = curves.into_iter().map(curve).collect::<Result<Vec<_>>>()?;
+    joined(&curves, &mut Warnings::default())
 }
 
 /// The hazard of one peak, with what the other curves tell of it.

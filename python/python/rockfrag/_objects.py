@@ -1,0 +1,259 @@
+"""Objects and what comes of them: arrays in and out, without a file."""
+
+from __future__ import annotations
+
+import math
+import struct
+from dataclasses import dataclass, fields
+from functools import partial
+from inspect import cleandoc
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from . import _bridge, _plots, _rockfrag
+from ._arrays import Response, known
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from os import PathLike
+    from typing import Literal, Unpack
+
+    from numpy.typing import ArrayLike, NDArray
+
+    from ._arrays import Floats
+    from ._rockfrag import Site
+    from ._stages import Fields
+
+#: What need not be made an array.
+PLAIN = (float, int, type(None))
+
+
+@dataclass(eq=False, repr=False)
+class States(_plots.Shown):
+    """Probabilities of rocking; of failure (rocking beyond the limit state, or overturning); of overturning.
+
+    In the paper 1 - P_nr, P_f and (1 - P_nr) P_ro. With 95 % limits, NaN where the model has none.
+    """
+
+    p_rocking: Floats
+    p_failure: Floats
+    p_failure_low: Floats
+    p_failure_high: Floats
+    p_overturning: Floats
+    p_overturning_low: Floats
+    p_overturning_high: Floats
+
+    def __repr__(self) -> str:
+        return "\n".join(_plots.line(self, name) for name in _plots.STATES)
+
+
+@dataclass(eq=False, repr=False)
+class Probabilities(States):
+    """The probabilities under motions: arrays of the shape of these, numbers under one."""
+
+    #: Peaks of the motions: g and m/s; None where not given.
+    pga: Floats | float | None
+    pgv: Floats | float | None
+    warnings: list[str]
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the probabilities over PGA, or over PGV where PGA is one, by matplotlib; gives the axes."""
+        shape = np.shape(self.p_rocking)
+        for label, peak in (("PGA, g", self.pga), ("PGV, m/s", self.pgv)):
+            if len(shape) == 1 and peak is not None and len(np.unique(peak)) > 1:
+                return _plots.fragility(np.asarray(peak), label, self, axes)
+        raise ValueError(f"probabilities of the shape {shape} are no curve; expected (n,), n > 1")
+
+
+@dataclass(eq=False, repr=False)
+class Rate(States):
+    """How often an object rocks, fails and overturns at a site, with 95 % limits; NaN where not known."""
+
+    #: Mean annual rates.
+    rocking_per_year: float
+    failure_per_year: float
+    failure_per_year_low: float
+    failure_per_year_high: float
+    overturning_per_year: float
+    overturning_per_year_low: float
+    overturning_per_year_high: float
+    return_period_years: float
+    #: Share of the rate of overturning beyond the last point of the hazard curve.
+    share_extrapolated: float
+    #: Those of the probabilities.
+    years: float
+    warnings: list[str]
+
+
+@dataclass(eq=False, repr=False)
+class Fragility(States):
+    """The shares of the motions of one peak that rock an object, too far or until it overturns."""
+
+    #: The peak: pga, in g, or pgv, in m/s; and its values.
+    over: str
+    intensity: Floats
+    #: ``overturning_theta``, ``failure_beta`` ...: medians and dispersions, with limits, as of evaluate.
+    row: dict[str, float]
+    warnings: list[str]
+
+    @property
+    def label(self) -> str:
+        return "PGA, g" if self.over == "pga" else "PGV, m/s"
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws the probabilities with their limits by matplotlib; gives the axes."""
+        return _plots.fragility(self.intensity, self.label, self, axes)
+
+    def __repr__(self) -> str:
+        name, unit = self.label.split(", ")
+        ends = (self.row[f"overturning_theta{end}"] for end in ("", "_low", "_high"))
+        last = self.intensity[-1]
+        half, low, high = [f"{'> ' * (end != end)}{np.fmin(end, last):.3g} {unit}" for end in ends]
+        return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
+
+
+class Object:
+    """An object, by its fields; lengths in m.
+
+    ``limit_state`` is the rotation over the slenderness beyond which it fails. The universal surface
+    predicts, for motions of the kind ``suite`` (recorded, csgm, pulse or hfc); or the fits in the folder ``fits``.
+    """
+
+    def __init__(
+        self,
+        *,
+        limit_state: float = 0.1,
+        suite: Literal["recorded", "csgm", "pulse", "hfc"] | None = None,
+        fits: str | PathLike[str] | None = None,
+        **fields: Unpack[Fields],
+    ) -> None:
+        words = {True: "yes", False: "no"}
+        given = [(name, value) for name, value in fields.items() if value is not None]
+        texts = [(name, words[value] if isinstance(value, bool) else str(value)) for name, value in given]
+        self._object = _rockfrag.Object(texts, limit_state, suite, fits)
+        self._given: dict[str, Any] = {"limit_state": limit_state, "suite": suite, "fits": fits, **fields}
+
+    @property
+    def parameters(self) -> tuple[float, float, float]:
+        """p (rad/s), alpha (rad) and eta, of the weaker direction."""
+        return self._object.parameters
+
+    def probability(
+        self,
+        pga: ArrayLike | None = None,
+        pgv: ArrayLike | None = None,
+        magnitude: ArrayLike | None = None,
+        *,
+        vs30: float | None = None,
+    ) -> Probabilities:
+        """Probabilities under motions of PGA (g) and PGV (m/s), arrays that broadcast to one shape.
+
+        Of a motion with one peak the other is averaged over, as it is at typical sites, or with this ``vs30``
+        (m/s). Without ``magnitude`` it is inferred from PGV / PGA.
+        """
+        given: list[Any] = [pga, pgv, magnitude]
+        if pga is None and pgv is None:
+            raise TypeError("probability() needs pga, pgv or both")
+        shape: tuple[int, ...] = ()
+        if not (isinstance(pga, PLAIN) and isinstance(pgv, PLAIN) and isinstance(magnitude, PLAIN)):
+            arrays = [None if each is None else known(each) for each in given]
+            shape = np.broadcast(*[each for each in arrays if each is not None]).shape
+            given = [None if each is None else np.broadcast_to(each, shape) for each in arrays]
+        sent = [each if isinstance(each, PLAIN) else each.tobytes() for each in given]
+        found, warnings = self._object.probability(math.prod(shape), sent[0], sent[1], sent[2], vs30)
+        if warnings:
+            _bridge.warn(warnings)
+        states = np.frombuffer(found).reshape(7, *shape) if shape else struct.unpack("7d", found)
+        return Probabilities(*states, given[0], given[1], warnings)  # type: ignore[call-arg]
+
+    def rate(self, site: Site, years: float = 50.0) -> Rate:
+        """Annual rates, and the probabilities in so many years, at a site."""
+        columns, warnings = self._object.rate(site, years)
+        _bridge.warn(warnings)
+        names = [field.name for field in fields(Rate) if field.name in columns]
+        return Rate(**{name: np.frombuffer(columns[name])[0] for name in names}, warnings=warnings)
+
+    def fragility(
+        self,
+        over: Literal["pga", "pgv"] = "pgv",
+        *,
+        magnitude: float | None = None,
+        vs30: float | None = None,
+        ratio: float | None = None,
+    ) -> Fragility:
+        """The fragility over PGV (m/s) or PGA (g) under the motions of typical sites.
+
+        Magnitude, Vs30 (m/s) and PGV / PGA (s) narrow these; ``evaluate(over=..., hazard=...)`` is for a site.
+        """
+        columns, warnings = self._object.fragility(over, magnitude, vs30, ratio)
+        _bridge.warn(warnings)
+        arrays = {name: np.frombuffer(of) for name, of in columns.items() if isinstance(of, bytes)}
+        row = {name: float(column[0]) for name, column in arrays.items() if len(column) == 1}
+        points = {field.name: arrays[field.name] for field in fields(States)}
+        intensity = arrays["pga_g" if over == "pga" else "pgv_m_s"]
+        return Fragility(**points, over=over, intensity=intensity, row=row, warnings=warnings)
+
+    def response(self, acceleration: ArrayLike, dt: float, *, tail: float = 10.0) -> Response:
+        """The response over time to an acceleration (m/s2) every ``dt`` s, then ``tail`` s of quiet.
+
+        It stands on what moves so: give the motion of a floor itself.
+        """
+        samples = known(acceleration)
+        if samples.ndim != 1:
+            raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
+        solved = _rockfrag.simulate_motion(self._object, samples.tobytes(), dt, tail)
+        _bridge.warn(solved.pop("warnings"))
+        array = {name: np.frombuffer(value) for name, value in solved.items() if isinstance(value, bytes)}
+        return Response(**{**solved, **array})
+
+    def __repr__(self) -> str:
+        p, alpha, eta = self.parameters
+        given = ", ".join(f"{name}={value!r}" for name, value in self._given.items() if value is not None)
+        return f"Object({given}): p {p:.3g} rad/s, alpha {alpha:.3g}, eta {eta:.3g}"
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(Object, **self._given), ()
+
+
+#: The fields, as the command helps with them.
+Object.__doc__ = f"{cleandoc(Object.__doc__ or '')}\n\n{_bridge.listed(_rockfrag.fields())}"
+
+
+def fragility(over: Literal["pga", "pgv"] = "pgv", **options: Any) -> Fragility:
+    """The fragility of an object of these fields; it also takes the options of :meth:`Object.fragility`."""
+    sites = {name: options.pop(name) for name in ("magnitude", "vs30", "ratio") if name in options}
+    return Object(**options).fragility(over, **sites)
+
+
+@dataclass(frozen=True, eq=False)
+class Responses:
+    """Responses to records: of the shape (records,) of one object, (records, objects) of several."""
+
+    #: |theta|max / alpha (Eq. 7): 0 where it does not rock, NaN where it overturns.
+    edp: Floats
+    overturned: NDArray[np.bool_]
+
+
+def simulate_motions(
+    accelerations: Any,
+    dt: ArrayLike,
+    objects: Object | Sequence[Object],
+    *,
+    threads: int | None = None,
+    progress: bool | Callable[[int, int], object] | None = None,
+) -> Responses:
+    """Simulates objects under records, with the solver of :func:`rockfrag.simulate`.
+
+    ``accelerations`` (m/s2) is an array of the shape (records, samples), or one array a record; ``dt`` is
+    their time step (s), or one a record. An object rocks in its weaker direction.
+    """
+    records, steps = [known(record) for record in accelerations], known(dt).ravel().tolist()
+    if any(record.ndim != 1 for record in records) or len(steps) not in (1, len(records)):
+        raise ValueError("expected accelerations of the shape (records, samples), and dt of all or each")
+    solved = [each._object for each in ([objects] if isinstance(objects, Object) else objects)]
+    told = _bridge.teller("simulate_motions", progress)
+    sent = [record.tobytes() for record in records]
+    edp, overturned = _rockfrag.simulate_motions(sent, steps, solved, threads, told)
+    shape = (len(records),) if isinstance(objects, Object) else (len(records), len(solved))
+    return Responses(np.frombuffer(edp).reshape(shape), np.frombuffer(overturned, dtype=bool).reshape(shape))
