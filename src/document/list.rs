@@ -21,11 +21,14 @@ pub fn document(table: &AnswerTable) -> Document {
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = Answer::when_of_all(&table.rows);
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
-    let what = if over.is_some() { "what motions overturn" } else { "how likely to overturn" };
+    let what = match over {
+        Some(_) => "what motions overturn".to_string(),
+        None => format!("how likely to overturn {when}"),
+    };
     let all = pieces(&table.rows);
     let several = table.rows.iter().any(|answer| answer.file != worst.file);
     let of_what = if several { "Objects of several files".to_string() } else { counted(all, "object") };
-    let title = format!("{of_what}: {what} {when}");
+    let title = format!("{of_what}: {what}");
     // What is changed comes first.
     let (news, others): (Vec<&Answer>, Vec<&Answer>) = table.rows.iter().partition(|answer| answer.is_news());
     let (rows, same) = table_of(&[&news[..], &others].concat(), &when);
@@ -161,7 +164,10 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let answered = answers.iter().copied().filter(|answer| answer.is_answered());
         let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
-        let words = format!("of {all} expected to overturn {when}{limits}{file}");
+        // Alone it has a number of its own.
+        let any = answers[0].list.at_least_one.value.filter(|_| files.len() > 1);
+        let any = any.map_or(String::new(), |p| format!("; at least one with {}", PERCENT.one(p)));
+        let words = format!("of {all} expected to overturn {when}{limits}{any}{file}");
         let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
         tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
     }
