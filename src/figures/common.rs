@@ -59,6 +59,11 @@ pub fn called(structure: &Structure) -> String {
     format!("block of {width} × {height} m")
 }
 
+/// A name in a row, marked; what has none is an object.
+pub fn name_of(structure: &str) -> String {
+    if structure == UNNAMED { "object".to_string() } else { literal(structure) }
+}
+
 /// Names the motions of a suite; marked text.
 pub fn motions_of(suite: &str) -> String {
     match suite.parse() {

@@ -5,8 +5,7 @@ use rockfrag_core::rocking::CapacityStatus;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
 
-use super::common::{by, observed_shares, scaled_label, title};
-use crate::chart::text::literal;
+use super::common::{by, name_of, observed_shares, scaled_label, title};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
 
@@ -55,13 +54,13 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
         Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares),
     ];
     let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::fraction("fraction that overturns"));
-    Panel::new(&title(&literal(&fit.structure), fit.suite.as_deref()), x, y, layers)
+    Panel::new(&title(&name_of(&fit.structure), fit.suite.as_deref()), x, y, layers)
 }
 
 /// Validation in bins: a panel a structure and suite, a series an event and model.
 pub fn validation(bins: &[ReliabilityBin]) -> Figure {
     let mut panels = Vec::new();
-    let name = |bin: &ReliabilityBin| title(&literal(&bin.structure), bin.suite.as_deref());
+    let name = |bin: &ReliabilityBin| title(&name_of(&bin.structure), bin.suite.as_deref());
     for bins in by(bins, name).into_iter().take(PANELS) {
         let name = name(bins[0]);
         let (ideal, dashed) = ([0.0, 1.0].map(|p| Mark::new(p, p)), MarkStyle::Line(Dash::Short));

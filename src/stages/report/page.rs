@@ -16,7 +16,7 @@ use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
-use crate::figures::common::{by, called, name, order, rocked, scaled_label, short_label, title};
+use crate::figures::common::{by, called, name, name_of, order, rocked, scaled_label, short_label, title};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
@@ -200,7 +200,7 @@ fn cell(row: &Value, field: &str) -> String {
             let value: Option<Interval<Option<f64>>> = serde_json::from_value(row[field].clone()).ok();
             value.map_or(String::new(), |value| TWO_DIGITS.both(value, ""))
         }
-        Value::String(name) if field == "structure" => literal(name),
+        Value::String(name) if field == "structure" => name_of(name),
         Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
         Value::String(text) => text.replace('_', " "),
         _ => String::new(),
