@@ -36,6 +36,19 @@ pub const PGV_PGA_RECORDED_S: RangeInclusive<f64> = 0.005..=1.0;
 /// PGV/PGA, s, of the motions of a site: that of records, without its rare ends.
 pub const PGV_PGA_OF_SITE_S: RangeInclusive<f64> = 0.01..=0.5;
 
+/// What a person gives of motions and of a site, each with what is expected.
+pub const GIVEN_PGA_G: (RangeInclusive<f64>, &str) =
+    (0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?");
+pub const GIVEN_PGV_M_S: (RangeInclusive<f64>, &str) =
+    (0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?");
+pub const GIVEN_MAGNITUDE: (RangeInclusive<f64>, &str) = (MAGNITUDES, "a moment magnitude");
+pub const GIVEN_VS30_M_S: (RangeInclusive<f64>, &str) = (100.0..=2500.0, "Vs30 in m/s, from 100 to 2500");
+pub const GIVEN_RATIO_S: (RangeInclusive<f64>, &str) =
+    (PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s");
+pub const GIVEN_YEARS: (RangeInclusive<f64>, &str) = (1e-3..=1e6, "years above 0");
+pub const GIVEN_LIMIT_STATE: (RangeInclusive<f64>, &str) =
+    (1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1");
+
 /// Time steps that the solver takes, s.
 pub const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;
 /// Time steps of records, s: 200 to 500 samples a second to film digitised by hand, with a margin.

@@ -199,6 +199,13 @@ pub fn number<T: FromStr + PartialOrd + Clone>(
     }
 }
 
+/// A parser of what a person gives.
+pub fn given(
+    (range, expected): (RangeInclusive<f64>, &'static str),
+) -> impl Fn(&str) -> Result<f64, String> + Clone {
+    number(range, expected)
+}
+
 /// Ascending numbers: one, several separated by commas, or first:last:step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Steps(pub Vec<f64>);

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{Calibration, DemandFit, Predictors, fit_demand};
+use rockfrag_core::plausibility::GIVEN_LIMIT_STATE;
 use serde::{Deserialize, Serialize};
 
 use super::shared::fits::{best_first, text, warnings};
@@ -13,7 +14,7 @@ use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::number;
+use crate::pipeline::options::{given, number};
 use crate::pipeline::paths::{Read, part};
 
 /// Fit the probability of exceeding a demand in safe rocking: P_ex
@@ -32,7 +33,7 @@ pub struct FitPex {
     out: PathBuf,
     /// Limit states: demands |theta|max / alpha
     #[arg(long, value_name = "DEMAND,...", value_delimiter = ',', default_value = "0.1",
-          value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
+          value_parser = given(GIVEN_LIMIT_STATE))]
     limit_state: Vec<f64>,
     /// IM4 at which the planes meet; the column transition_found has that of the least residual
     #[arg(long, value_name = "IM4", default_value = "1.3",

@@ -110,6 +110,28 @@ impl Site {
         Site { hazard, mw: None, vs30_m_s: None }
     }
 
+    /// With what is known besides its hazard; PGV / PGA in s.
+    ///
+    /// # Errors
+    /// If the hazard itself gives PGV / PGA.
+    pub fn about(
+        mut hazard: Hazard,
+        mw: Option<f64>,
+        vs30_m_s: Option<f64>,
+        ratio_s: Option<f64>,
+    ) -> Result<Site, &'static str> {
+        match &mut hazard {
+            Hazard::Curve(PeakHazard { pgv_pga: known @ None, .. }) => {
+                *known = ratio_s.map(PgvPgaRatio::given)
+            }
+            _ if ratio_s.or(vs30_m_s).is_some() => {
+                return Err("ratio, vs30: the hazard itself gives PGV/PGA");
+            }
+            _ => {}
+        }
+        Ok(Site { hazard, mw, vs30_m_s })
+    }
+
     /// Mean annual rates, 1/year, with 95 % limits; see [`SiteRates`] for what is none.
     pub fn rates(&self, object: &RockingObject) -> SiteRates {
         match &self.hazard {

@@ -12,10 +12,12 @@ use clap::ValueHint::FilePath;
 use polars_core::prelude::DataFrame;
 use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
-use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, Site};
+use rockfrag_core::hazard::{GenericSites, GroundMotion, Hazard, Site};
 use rockfrag_core::motion::Peaks;
 use rockfrag_core::object::{Object, Place, Restitution};
-use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use rockfrag_core::plausibility::{
+    GIVEN_MAGNITUDE, GIVEN_PGA_G, GIVEN_PGV_M_S, GIVEN_RATIO_S, GIVEN_VS30_M_S, GIVEN_YEARS,
+};
 use rockfrag_core::records::implausibility::rarity;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::units::G_M_S2;
@@ -29,7 +31,7 @@ use crate::chart::{DPI, png, svg};
 use crate::document::{Document, PageArgs, sheet, workbook};
 use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, number};
+use crate::pipeline::options::{Rule, given, number};
 use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
@@ -45,12 +47,10 @@ use crate::table::frame::{self, Format};
     rockfrag evaluate --width 0.5 --height 2.0 --period 0.6 --level 0.5 --hazard pga.csv")]
 pub struct Evaluate {
     /// Peak ground acceleration, g
-    #[arg(long, value_name = "G",
-          value_parser = number(0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"))]
+    #[arg(long, value_name = "G", value_parser = given(GIVEN_PGA_G))]
     pga: Option<f64>,
     /// Peak ground velocity, m/s
-    #[arg(long, value_name = "M/S",
-          value_parser = number(0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"))]
+    #[arg(long, value_name = "M/S", value_parser = given(GIVEN_PGV_M_S))]
     pgv: Option<f64>,
     /// Table of PGA and PGV (pga_m_s2 or pga_g, pgv_m_s), Parquet or CSV, with p_rad_s, alpha_rad and
     /// eta where they vary
@@ -64,20 +64,19 @@ pub struct Evaluate {
     /// Moment magnitude of motions without one [default: inferred from PGV/PGA, else that of motions that
     /// overturn]; at a site the mean of the disaggregation at 2475 years, of SA(1.0 s) with that curve, else of
     /// PGA (not used with PGV alone)
-    #[arg(long, value_name = "MW", value_parser = number(MAGNITUDES, "a moment magnitude"))]
+    #[arg(long, value_name = "MW", value_parser = given(GIVEN_MAGNITUDE))]
     magnitude: Option<f64>,
     /// Vs30 of the site, m/s: narrows the estimate of the peak that is not given
-    #[arg(long, value_name = "M/S", value_parser = number(100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"))]
+    #[arg(long, value_name = "M/S", value_parser = given(GIVEN_VS30_M_S))]
     vs30: Option<f64>,
     /// Years represented by ground-motion fields
     #[arg(long, value_name = "YEARS", value_parser = number(1.0..=1e9, "years of 1 and more"))]
     effective_years: Option<f64>,
     /// Exposure time, years
-    #[arg(long, value_name = "YEARS", default_value = "50", value_parser = number(1e-3..=1e6, "years above 0"))]
+    #[arg(long, value_name = "YEARS", default_value = "50", value_parser = given(GIVEN_YEARS))]
     years: f64,
     /// PGV/PGA of all motions, s [default: from the curves, or that of typical sites]
-    #[arg(long, value_name = "S",
-          value_parser = number(PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"))]
+    #[arg(long, value_name = "S", value_parser = given(GIVEN_RATIO_S))]
     ratio: Option<f64>,
     /// Probability of overturning in --years, such as 1%: find the width of the base that meets it
     #[arg(long, value_name = "P", value_parser = parse_target)]
@@ -256,17 +255,8 @@ impl Evaluate {
 
     /// Reads the hazard and what rates over it need.
     fn site(&self, reader: &mut Reader) -> anyhow::Result<Site> {
-        let mut hazard = hazard::read(&self.hazard, reader, self.effective_years)?;
-        match &mut hazard {
-            Hazard::Curve(PeakHazard { pgv_pga: known @ None, .. }) => {
-                *known = self.ratio.map(PgvPgaRatio::given)
-            }
-            _ => {
-                let problem = "ratio, vs30: the hazard itself gives PGV/PGA";
-                ensure!(self.ratio.or(self.vs30).is_none(), UsageError::because(problem));
-            }
-        }
-        Ok(Site { hazard, mw: self.magnitude, vs30_m_s: self.vs30 })
+        let hazard = hazard::read(&self.hazard, reader, self.effective_years)?;
+        Site::about(hazard, self.magnitude, self.vs30, self.ratio).map_err(UsageError::because)
     }
 
     /// Returns the given structures, or all fitted ones.

@@ -11,6 +11,7 @@ use rockfrag_core::fragility::{
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::object::{Object, RockingObject};
+use rockfrag_core::plausibility::GIVEN_LIMIT_STATE;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::warning::Warning;
@@ -18,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::listed;
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{Rule, number};
+use crate::pipeline::options::{Rule, given};
 use crate::pipeline::paths::Read;
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
@@ -51,7 +52,7 @@ pub struct ModelArgs {
     pub model: ModelName,
     /// Limit state, as demand |theta|max / alpha
     #[arg(long, value_name = "DEMAND", default_value = "0.1",
-          value_parser = number(1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1"))]
+          value_parser = given(GIVEN_LIMIT_STATE))]
     pub limit_state: f64,
 }
 
