@@ -28,13 +28,13 @@ use rockfrag_core::warning::Warning;
 use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
-use crate::figures::common::distinct;
 use crate::inputs::Reading;
 use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
+use crate::table::TableError;
 use crate::table::file::ParquetTable;
 use crate::table::provenance::Provenance;
-use crate::table::{TableError, rows};
+use crate::table::rows::{self, distinct};
 pub use at_site::{AtSite, USUAL_YEARS};
 pub use labels::Labels;
 pub use row::{

@@ -7,9 +7,9 @@ use super::{Document, Table, Tile, object};
 use crate::answer::{Answer, AnswerTable, Before, Detail};
 use crate::chart::text::literal;
 use crate::figures::answers;
-use crate::figures::common::{by, distinct};
 use crate::inputs::SECTION;
 use crate::number::{OF_HUNDRED, PERCENT, TWO_DIGITS, count, counted, length, listed, plain};
+use crate::table::rows::{by, distinct};
 
 /// The most files whose expected numbers are shown, and objects that are named in a sentence.
 const FILES: usize = 3;

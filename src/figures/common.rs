@@ -137,23 +137,6 @@ pub fn compare(caption: &str, figure: &str) -> String {
     format!("{caption} Compare {figure} of Dimitrakopoulos & Paraskeva (2015).")
 }
 
-/// The rows of each key, in the order in which the keys first come.
-pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn(R) -> K) -> Vec<Vec<R>> {
-    let mut groups: Vec<Vec<R>> = Vec::new();
-    for row in rows {
-        match groups.iter_mut().find(|group| key(group[0]) == key(row)) {
-            Some(group) => group.push(row),
-            None => groups.push(vec![row]),
-        }
-    }
-    groups
-}
-
-/// Each row once.
-pub fn distinct<R: Copy + PartialEq>(rows: impl IntoIterator<Item = R>) -> Vec<R> {
-    by(rows, |row| row).into_iter().map(|same| same[0]).collect()
-}
-
 /// The cases that rocked, and whether they overturned.
 pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
     let overturned = |case: &Case| Event::Overturning.happened(case.outcome, f64::INFINITY);

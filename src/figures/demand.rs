@@ -12,10 +12,11 @@ use rockfrag_core::rocking::Outcome;
 use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, by, compare, demands, estimate, label, name, short_label, short_labels};
+use super::common::{DEMAND, Fits, compare, demands, estimate, label, name, short_label, short_labels};
 use crate::chart::text::file_words;
 use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number::{self, PERCENT};
+use crate::table::rows::by;
 
 /// The least demand of Figures 3 and 4: what is below hardly rocks.
 const LEAST: f64 = 1e-3;

@@ -9,11 +9,12 @@ use rockfrag_core::statistics::scores::sample_quantile;
 use rockfrag_core::statistics::{FitStatus, Interval, Range};
 use rockfrag_core::units::G_M_S2;
 
-use super::common::{Fits, by, called, compare, demands, estimate, label, name};
+use super::common::{Fits, called, compare, demands, estimate, label, name};
 use super::common::{motions_of, observed_shares, order, ratio_bins, rocked, short_label, short_labels};
 use crate::chart::text::minus;
 use crate::chart::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::number;
+use crate::table::rows::by;
 
 /// Number of points of a curve; the most bins of observed shares, and cases for each on average.
 const STEPS: usize = 120;

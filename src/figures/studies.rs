@@ -5,9 +5,10 @@ use rockfrag_core::rocking::CapacityStatus;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
 
-use super::common::{by, name_of, observed_shares, scaled_label, title};
+use super::common::{name_of, observed_shares, scaled_label, title};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
+use crate::table::rows::by;
 
 /// The most panels, levels of an analysis, and steps of its curve.
 const PANELS: usize = 24;

@@ -5,9 +5,10 @@ use rockfrag_core::paper::EXAMPLE_LAMBDA;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
 
-use super::common::{by, called, label, motions_of, order, rocked};
+use super::common::{called, label, motions_of, order, rocked};
 use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
 use crate::number;
+use crate::table::rows::by;
 
 /// The fewest structures of a suite that are drawn.
 const LEAST_STRUCTURES: usize = 10;

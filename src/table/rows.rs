@@ -148,3 +148,20 @@ pub fn side_by_side(batches: &[RecordBatch]) -> anyhow::Result<RecordBatch> {
     let columns = batches.iter().flat_map(|batch| batch.columns().iter().cloned()).collect();
     Ok(RecordBatch::try_new(Arc::new(Schema::new(fields)), columns)?)
 }
+
+/// The rows of each key, in the order in which the keys first come.
+pub fn by<R: Copy, K: PartialEq>(rows: impl IntoIterator<Item = R>, key: impl Fn(R) -> K) -> Vec<Vec<R>> {
+    let mut groups: Vec<Vec<R>> = Vec::new();
+    for row in rows {
+        match groups.iter_mut().find(|group| key(group[0]) == key(row)) {
+            Some(group) => group.push(row),
+            None => groups.push(vec![row]),
+        }
+    }
+    groups
+}
+
+/// Each row once.
+pub fn distinct<R: Copy + PartialEq>(rows: impl IntoIterator<Item = R>) -> Vec<R> {
+    by(rows, |row| row).into_iter().map(|same| same[0]).collect()
+}

@@ -16,13 +16,13 @@ use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
-use crate::figures::common::{by, called, name, name_of, order, rocked, scaled_label, short_label, title};
+use crate::figures::common::{called, name, name_of, order, rocked, scaled_label, short_label, title};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
 use crate::stages::shared::fits::CurveLine;
 use crate::table::responses::{CapacityFitRow, OutcomeWord, ResponseRow};
-use crate::table::rows;
+use crate::table::rows::{self, by};
 
 /// The most motions and structures of a table of demand.
 const MOST_MOTIONS: usize = 30;
