@@ -93,7 +93,7 @@ impl ObjectColumns {
 
     pub fn too_far(&self) -> String {
         let share = PERCENT.one(self.limit_state.unwrap_or(LIMIT_STATE));
-        format!("rocks beyond {share} of its slenderness, or overturns")
+        format!("rocks beyond {share} of its slenderness angle, or overturns")
     }
 
     /// The friction without which it slides; none where it is known to have enough.
@@ -133,11 +133,11 @@ impl Answer {
         let halves = over_all([self]).filter_map(|Answer { fragility, .. }| {
             let [half, limits, ..] = intensity_cells(fragility.over?, &fragility.overturning);
             let limits = if limits.is_empty() { limits } else { format!(" (95 % limits {limits})") };
-            Some(format!("a {} of {half}{limits}", fragility.over?.name_and_unit().0))
+            Some(format!("a median {} of {half}{limits}", fragility.over?.name_and_unit().0))
         });
         let halves: Vec<String> = halves.collect();
         if !halves.is_empty() {
-            return format!("is overturned by half of the motions at {}", halves.join(", or at "));
+            return format!("overturns at {}", halves.join(", or at "));
         }
         match (self.rates.years, self.rates.overturning_per_year) {
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
@@ -307,7 +307,7 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let valid = match alone.map(friction) {
         None => "With less friction than it needs, an object slides instead of rocking.".to_string(),
         Some(None) => String::new(),
-        Some(Some(friction)) => format!("Valid if friction is above {friction}; else it slides."),
+        Some(Some(friction)) => format!("Valid if friction is well above {friction}; else it slides."),
     };
     let upstairs = || all.iter().map(|answer| &answer.object).filter(|object| object.floor_level.is_some());
     let in_percent = upstairs().any(|object| object.floor.is_none() && object.floor_level < Some(1.0));

@@ -112,7 +112,8 @@ impl Stage for Export {
                 functions.push(self.function(id, peak, object, &rocking)?);
             }
         }
-        let too_far = format!("rocks beyond {} of its slenderness, or overturns", self.model.limit_state);
+        let too_far =
+            format!("rocks beyond {} of its slenderness angle, or overturns", self.model.limit_state);
         let model = FragilityModel {
             id: if let [id] = &ids[..] { id.clone() } else { "rockfrag_structures".to_string() },
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],

@@ -82,8 +82,8 @@ pub fn verdict(compared: &[Comparison]) -> String {
     let (others, all_others) = agree(&|row| row.plane.is_none() && !row.quantity.starts_with("implied"));
     format!(
         "{planes} of the paper's {all_planes} planes ({pulse} of {all_pulse} under pulses, {csgm} of \
-         {all_csgm} combined) and {others} of {all_others} numbers agree with twenty seeds of \
-         rockfrag (p > {LEVEL}; reading chosen among {READINGS})."
+         {all_csgm} combined) and {others} of {all_others} numbers are not rejected by twenty seeds of \
+         rockfrag (p > {LEVEL}), with the best of {READINGS} readings of its text."
     )
 }
 
