@@ -1,4 +1,4 @@
-//! Motions through objects, and the lognormal curve of given outcomes. Arrays are the bytes of f64.
+//! Motions through objects. Arrays are the bytes of f64.
 
 use std::sync::atomic::Ordering;
 
@@ -9,14 +9,11 @@ use rayon::prelude::*;
 use rockfrag::pipeline::UsageError;
 use rockfrag::pipeline::context::Common;
 use rockfrag::table::responses::OutcomeWord;
-use rockfrag_core::fragility::{DeltaEstimate, beta, mu};
 use rockfrag_core::object::structure_warnings;
 use rockfrag_core::records::implausibility::implausibility;
 use rockfrag_core::rocking::{
     Ground, Outcome, Problem, Record, Response, Structure, TracePoint, simulate, simulate_all, trace,
 };
-use rockfrag_core::statistics::distributions::t_quantile;
-use rockfrag_core::statistics::{FitStatus, Interval, clustered_probit, delta_variance, normal};
 use rockfrag_core::units::G_M_S2;
 
 use crate::error::to_python;
@@ -134,64 +131,4 @@ pub fn simulate_motions<'py>(
     let edp = responses.iter().map(|response| response.outcome.demand().unwrap_or(f64::NAN));
     let overturned = responses.iter().map(|response| u8::from(response.outcome == Outcome::Overturned));
     Ok([bytes(py, edp), PyBytes::new(py, &overturned.collect::<Vec<u8>>())])
-}
-
-/// Fits the lognormal curve of Eq. 20 by maximum likelihood (Eqs. 21 and 22). Returns the status, the
-/// coefficients of z = b0 + b1 ln IM with their covariance, and theta and beta with limits. `outcomes` has a
-/// byte a case.
-#[pyfunction]
-pub fn fit_curve<'py>(
-    py: Python<'py>,
-    im: &[u8],
-    outcomes: &[u8],
-    confidence: f64,
-) -> PyResult<Bound<'py, PyDict>> {
-    let im = numbers(im);
-    let happened: Vec<bool> = outcomes.iter().map(|outcome| *outcome != 0).collect();
-    let fit = move |_| -> anyhow::Result<_> {
-        let refuse = |problem: String| Err(UsageError::because(problem));
-        if let Some(at) = im.iter().position(|im| !(im.is_finite() && *im > 0.0)) {
-            return refuse(format!("im[{at}] is {}; expected a finite number above 0", im[at]));
-        }
-        if !(0.5..1.0).contains(&confidence) {
-            return refuse(format!("confidence is {confidence}; expected a level from 0.5 to 1"));
-        }
-        let ln_im: Vec<f64> = im.iter().map(|im| im.ln()).collect();
-        Ok((clustered_probit(&[&ln_im], &happened, &[]), happened))
-    };
-    // Many cases are fitted on several threads.
-    let (probit, happened) = run(py, None, None, fit)?;
-    let result = PyDict::new(py);
-    result.set_item("n", happened.len())?;
-    result.set_item("n_events", happened.iter().filter(|happened| **happened).count())?;
-    let probit = match probit {
-        Ok(probit) => probit,
-        Err(status) => {
-            result.set_item("status", status.to_string())?;
-            return Ok(result);
-        }
-    };
-    let (b, covariance) = (probit.fit.coefficients.as_slice(), probit.fit.covariance.as_slice());
-    let quantile = t_quantile(0.5 * (1.0 + confidence), f64::INFINITY);
-    let half_width = |gradient: &[f64]| quantile * delta_variance(covariance, gradient).sqrt();
-    let estimate = |DeltaEstimate { value, gradient }| Interval::around(value, half_width(&gradient));
-    // The limits of a dispersion are on the scale of its logarithm.
-    let beta = beta(b);
-    let ln_beta = Interval::around(beta.value.abs().ln(), half_width(&beta.gradient) / beta.value.abs());
-    let three = |Interval { value, low, high }: Interval| [value, low, high];
-    let status = if b[1] <= 0.0 { FitStatus::WrongSign } else { probit.status };
-    result.set_item("status", status.to_string())?;
-    result.set_item("theta", three(estimate(mu(b)).map(f64::exp)))?;
-    result.set_item("beta", three(ln_beta.map(f64::exp)))?;
-    result.set_item("largest_difference", probit.largest_difference.unwrap_or(f64::NAN))?;
-    result.set_item("coefficients", b)?;
-    result.set_item("covariance", covariance)?;
-    result.set_item("errors_to_limits", quantile)?;
-    Ok(result)
-}
-
-/// The standard normal distribution.
-#[pyfunction]
-pub fn normal_cdf<'py>(py: Python<'py>, z: &[u8]) -> Bound<'py, PyBytes> {
-    bytes(py, numbers(z).into_iter().map(normal::cdf))
 }

@@ -3,7 +3,7 @@
 //! ```text
 //! stages    any stage: options as JSON in, paths out; runs, inspect and the command itself
 //! objects   objects and sites of the library: probabilities, rates, fragilities
-//! arrays    motions through objects; the lognormal curve of given outcomes
+//! arrays    motions through objects
 //! table     Arrow streams of Python to and from Parquet files
 //! run       the GIL released, threads, progress, Ctrl-C
 //! error     errors as Python's exceptions
@@ -24,9 +24,9 @@ mod _rockfrag {
     use super::*;
 
     #[pymodule_export]
-    use crate::arrays::{fit_curve, normal_cdf, simulate_motion, simulate_motions};
+    use crate::arrays::{simulate_motion, simulate_motions};
     #[pymodule_export]
-    use crate::objects::{PyObject, Site, fields};
+    use crate::objects::{PyObject, Site};
     #[pymodule_export]
     use crate::stages::{call, command, describe, inspect, run_pipeline};
     #[pymodule_export]

@@ -20,12 +20,13 @@ use rockfrag::pipeline::context::Common;
 use rockfrag::stages::shared::model_args::{ModelArgs, ModelName};
 use rockfrag::table::rows;
 use rockfrag_core::fragility::{LimitStates, MotionKind, Peak, RockingDirection};
-use rockfrag_core::hazard::{
-    self, GenericSites, GroundMotion, Hazard, PeakHazard, PgvPgaRatio, unusual_motions,
-};
+use rockfrag_core::hazard::{self, GenericSites, GroundMotion, Hazard, unusual_motions};
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::object::{Field, Object, Place, RockingObject};
-use rockfrag_core::plausibility::{MAGNITUDES, PGV_PGA_OF_SITE_S, STRONGEST_PGA_G, STRONGEST_PGV_M_S};
+use rockfrag_core::plausibility::{
+    GIVEN_LIMIT_STATE, GIVEN_MAGNITUDE, GIVEN_PGA_G, GIVEN_PGV_M_S, GIVEN_RATIO_S, GIVEN_VS30_M_S,
+    GIVEN_YEARS,
+};
 use rockfrag_core::records::implausibility::rarity;
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::statistics::Interval;
@@ -44,7 +45,6 @@ const FEW: usize = 64;
 type Columns<'py> = (Bound<'py, PyDict>, Vec<String>);
 
 /// The name and the help of each field of an object.
-#[pyfunction]
 pub fn fields() -> Vec<(String, String)> {
     let name = |field: &Field| field.to_string().replace('-', "_");
     Field::VARIANTS.iter().map(|field| (name(field), in_python(field.entry().help))).collect()
@@ -83,7 +83,7 @@ impl PyObject {
         }
         let suite = suite.map(str::parse::<MotionKind>).transpose();
         let suite = suite.map_err(|error| PyValueError::new_err(format!("suite: {error}")))?;
-        expect("limit_state", &[limit_state])?;
+        expect("limit_state", GIVEN_LIMIT_STATE, &[limit_state])?;
         let object = object.on_pedestal();
         let model = ModelArgs { fits, name: None, suite, model: ModelName::Calibrated, limit_state };
         let found = model.read().and_then(|models| models.rocking_object(&object));
@@ -139,7 +139,7 @@ impl PyObject {
 
     /// Annual rates and probabilities in so many years at a site: the columns of evaluate.
     fn rate<'py>(&self, py: Python<'py>, site: &Site, years: f64) -> PyResult<Columns<'py>> {
-        expect("years", &[years])?;
+        expect("years", GIVEN_YEARS, &[years])?;
         let (rocking, site) = (self.rocking.clone(), site.0.clone());
         self.answer(py, move |_| {
             let rates = site.rates(&rocking);
@@ -241,9 +241,9 @@ fn motions(number: usize, given: [Option<Numbers>; 3], vs30_m_s: Option<f64>) ->
             Numbers::Many(bytes) => numbers(&bytes),
         })
     });
-    for (name, values) in [("pga", &pga), ("pgv", &pgv), ("magnitude", &mw)] {
-        expect(name, values.iter().flatten())?;
-    }
+    expect("pga", GIVEN_PGA_G, pga.iter().flatten())?;
+    expect("pgv", GIVEN_PGV_M_S, pgv.iter().flatten())?;
+    expect("magnitude", GIVEN_MAGNITUDE, mw.iter().flatten())?;
     if pga.is_some() && pgv.is_some() && vs30_m_s.is_some() {
         return Err(PyValueError::new_err("vs30 only estimates a missing peak; both are given"));
     }
@@ -258,20 +258,12 @@ fn motions(number: usize, given: [Option<Numbers>; 3], vs30_m_s: Option<f64>) ->
     all.collect()
 }
 
-/// What evaluate takes, by the names of arguments.
-const TAKEN: [(&str, RangeInclusive<f64>, &str); 7] = [
-    ("limit_state", 1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1"),
-    ("pga", 0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?"),
-    ("pgv", 0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?"),
-    ("magnitude", MAGNITUDES, "a moment magnitude"),
-    ("vs30", 100.0..=2500.0, "Vs30 in m/s, from 100 to 2500"),
-    ("ratio", PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s"),
-    ("years", 1e-3..=1e6, "years above 0"),
-];
-
-fn expect<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> PyResult<()> {
-    let (_, range, expected) =
-        TAKEN.into_iter().find(|(taken, ..)| *taken == name).expect("it is in the table");
+/// Refuses what is out of range.
+fn expect<'a>(
+    name: &str,
+    (range, expected): (RangeInclusive<f64>, &str),
+    values: impl IntoIterator<Item = &'a f64>,
+) -> PyResult<()> {
     match values.into_iter().find(|value| !range.contains(value)) {
         Some(value) => Err(PyValueError::new_err(format!("{name} is {value}; expected {expected}"))),
         None => Ok(()),
@@ -280,8 +272,9 @@ fn expect<'a>(name: &str, values: impl IntoIterator<Item = &'a f64>) -> PyResult
 
 /// Checks magnitude, Vs30 and PGV / PGA of the motions of a site.
 fn expect_site(magnitude: Option<f64>, vs30: Option<f64>, ratio: Option<f64>) -> PyResult<()> {
-    let all = [("magnitude", magnitude), ("vs30", vs30), ("ratio", ratio)];
-    all.iter().try_for_each(|(name, value)| expect(name, value))
+    expect("magnitude", GIVEN_MAGNITUDE, &magnitude)?;
+    expect("vs30", GIVEN_VS30_M_S, &vs30)?;
+    expect("ratio", GIVEN_RATIO_S, &ratio)
 }
 
 /// A site by its hazard curves, each of two rows: intensities, and the annual rates at which they are exceeded.
@@ -348,21 +341,12 @@ impl Site {
 
 impl Site {
     fn about(
-        mut hazard: Hazard,
+        hazard: Hazard,
         magnitude: Option<f64>,
         vs30: Option<f64>,
         ratio: Option<f64>,
     ) -> PyResult<Site> {
         expect_site(magnitude, vs30, ratio)?;
-        match &mut hazard {
-            Hazard::Curve(PeakHazard { pgv_pga: pgv_pga @ None, .. }) => {
-                *pgv_pga = ratio.map(PgvPgaRatio::given);
-            }
-            _ if ratio.or(vs30).is_some() => {
-                return Err(PyValueError::new_err("ratio, vs30: the hazard itself gives PGV/PGA"));
-            }
-            _ => {}
-        }
-        Ok(Site(hazard::Site { hazard, mw: magnitude, vs30_m_s: vs30 }))
+        hazard::Site::about(hazard, magnitude, vs30, ratio).map(Site).map_err(PyValueError::new_err)
     }
 }

@@ -11,15 +11,16 @@ use rockfrag::pipeline::call::{Call, Planned};
 use rockfrag::pipeline::context::Common;
 use rockfrag::pipeline::options::Given;
 use rockfrag::stages::inspect::Inspect;
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use crate::error::{in_python, to_python};
+use crate::objects::fields;
 use crate::run::run;
 
 /// A stage that is done: its name, the files that it wrote, what it prints, its warnings.
 type Made = (String, Vec<PathBuf>, String, Vec<String>);
 
-/// All stages as JSON, in the words of Python.
+/// All stages, and the fields of an object, as JSON in the words of Python.
 #[pyfunction]
 pub fn describe() -> String {
     let mut stages = rockfrag::cli::describe();
@@ -30,7 +31,7 @@ pub fn describe() -> String {
             option["name"] = option["name"].as_str().unwrap_or_default().replace('-', "_").into();
         }
     }
-    stages.to_string()
+    json!({ "stages": stages, "fields": fields() }).to_string()
 }
 
 fn translate(help: &mut Value) {

@@ -1,4 +1,4 @@
-"""Objects, sites and arrays: the numbers of the stages, and of statsmodels."""
+"""Objects, sites and arrays: the numbers of the stages."""
 
 import pickle
 from pathlib import Path
@@ -6,7 +6,6 @@ from pathlib import Path
 import numpy as np
 import polars
 import pytest
-import statsmodels.api
 from conftest import BLOCK, FRAME
 
 import rockfrag
@@ -120,52 +119,12 @@ ASKED = rockfrag.Object(**BLOCK)
         (lambda: rockfrag.simulate_motions([[0.1], [0.2]], 5.0, ASKED), ValueError, r"ons\[0\]: dt is 5"),
         (lambda: rockfrag.Object(**OBJECTS[2]).response([0.1, 0.2], 0.01), ValueError, "level, period"),
         (lambda: rockfrag.run("nowhere.yaml"), FileNotFoundError, "nowhere.yaml"),
-        (lambda: rockfrag.fit_fragility([1.0, 0.0], [0, 1]), ValueError, r"im\[1\] is 0; expected"),
-        (lambda: rockfrag.fit_fragility([1.0, 2.0], [0, 2]), ValueError, "outcome has other values"),
-        (lambda: rockfrag.fit_fragility(np.ones((2, 1)), np.ones(2)), ValueError, r"\(2, 1\) and outcome \(2,\)"),
+        (lambda: ASKED.probability(np.ma.masked_array([0.5, 0.9], [False, True]), 0.6), ValueError, "pga is NaN"),
     ],
 )
 def test_what_is_wrong_is_named(call, error, message):
     with pytest.raises(error, match=message):
         call()
-
-
-def test_a_curve_is_the_probit_of_statsmodels():
-    draw = np.random.default_rng(5)
-    im = draw.lognormal(0.0, 0.8, 300)
-    truth = rockfrag.FragilityCurve("ok", 0, 0, coefficients=(-0.4, 1.7))
-    happened = draw.random(300) < truth.probability(im)
-    curve = rockfrag.fit_fragility(im, happened)
-    probit = statsmodels.api.Probit(happened, statsmodels.api.add_constant(np.log(im)))
-    other = probit.fit(disp=False, tol=1e-12)
-    b, covariance = other.params, other.cov_params()
-    assert (curve.status, curve.n, curve.n_events) == ("ok", 300, happened.sum())
-    assert np.allclose(curve.coefficients, b, rtol=1e-6)
-    of_mu, of_beta = np.array([-1 / b[1], b[0] / b[1] ** 2]), np.array([0, -1 / b[1] ** 2])
-    error_of_mu, error_of_beta = (np.sqrt(gradient @ covariance @ gradient) for gradient in (of_mu, of_beta))
-    errors = 1.959964 * np.array([-1, 0, 1])
-    theta, beta = np.exp(-b[0] / b[1] + errors * error_of_mu), np.exp(errors * error_of_beta * b[1]) / b[1]
-    assert np.allclose([curve.theta_low, curve.theta, curve.theta_high], theta, rtol=1e-5)
-    assert np.allclose([curve.beta_low, curve.beta, curve.beta_high], beta, rtol=1e-5)
-    at = np.array([[0.3, 1.0], [2.0, 5.0]])
-    design = np.column_stack([np.ones(4), np.log(at).ravel()])
-    assert np.allclose(curve.probability(at).ravel(), other.predict(design), atol=1e-8)
-    assert (np.diff([curve.limits(at)[0], curve.probability(at), curve.limits(at)[1]], axis=0) > 0).all()
-
-
-@pytest.mark.parametrize(
-    ("im", "outcome", "status"),
-    [
-        (np.linspace(1, 2, 20), np.arange(20) > 16, "too_few_events"),
-        (np.linspace(1, 2, 20), np.arange(20) > 9, "separated"),
-        (np.ones(20), np.arange(20) % 2, "degenerate"),
-        (np.linspace(1, 2, 40), np.arange(40) % 7 * (40 - np.arange(40)) > 60, "wrong_sign"),
-    ],
-)
-def test_a_curve_that_cannot_be_fitted_has_a_status(im, outcome, status):
-    curve = rockfrag.fit_fragility(im, outcome)
-    assert curve.status == status
-    assert np.isnan(curve.probability(1.0)) == (status != "wrong_sign")
 
 
 def test_probabilities_come_from_fits_too(tmp_path, responses):

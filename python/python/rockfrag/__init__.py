@@ -22,23 +22,17 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from . import _bridge, _rockfrag
-from ._arrays import FragilityCurve, Response, fit_fragility
-from ._objects import Fragility, Object, Probabilities, Rate, Responses, fragility, simulate_motions
+from . import _call, _rockfrag, _stages
+from ._objects import Fragility, Object, Probabilities, Rate, Response, Responses, simulate_motions
 from ._result import Result
 from ._rockfrag import Error, Site, __version__
 from ._stages import *
 
-if TYPE_CHECKING:
-    # Where the stub of the stages is not built.
-    def __getattr__(name: str) -> Callable[..., Result]: ...
-
-
-__all__ = ["Error", "Fragility", "FragilityCurve", "Object", "Probabilities", "Rate", "Response", "Responses", "Result"]
-__all__ += ["Site", "__version__", "fit_fragility", "fragility", "inspect", "run", "simulate_motions"]
-__all__ += list(_bridge.functions)
+__all__ = ["Error", "Fragility", "Object", "Probabilities", "Rate", "Response", "Responses", "Result", "Site"]
+__all__ += ["__version__", "inspect", "run", "simulate_motions"]
+__all__ += _stages.__all__
 
 
 def __dir__() -> list[str]:
@@ -55,8 +49,8 @@ def run(
     progress: bool | Callable[[int, int], object] | None = None,
 ) -> dict[str, Result]:
     """Runs all stages of a pipeline file, skipping what is up to date; gives their results by name."""
-    made = _rockfrag.run_pipeline(config, out, seed, force, threads, _bridge.teller("run", progress))
-    return {stage[0].replace("-", "_"): _bridge.result(stage) for stage in made}
+    made = _rockfrag.run_pipeline(config, out, seed, force, threads, _call.teller("run", progress))
+    return {stage[0].replace("-", "_"): _call.result(stage) for stage in made}
 
 
 def inspect(path: str | os.PathLike[str]) -> dict[str, Any]:

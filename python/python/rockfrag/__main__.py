@@ -12,7 +12,7 @@ def main() -> int:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     # As in main.rs.
     os.environ["POLARS_MAX_THREADS"] = "1"
-    return command(["rockfrag", *sys.argv[1:]])
+    return int(command(["rockfrag", *sys.argv[1:]]))
 
 
 if __name__ == "__main__":

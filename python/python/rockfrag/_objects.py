@@ -6,13 +6,13 @@ import math
 import struct
 from dataclasses import dataclass, fields
 from functools import partial
-from inspect import cleandoc
+from inspect import Parameter, Signature, cleandoc
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from . import _bridge, _plots, _rockfrag
-from ._arrays import Response, known
+from . import _call, _plots, _rockfrag
+from ._stages import Fields
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -21,16 +21,63 @@ if TYPE_CHECKING:
 
     from numpy.typing import ArrayLike, NDArray
 
-    from ._arrays import Floats
     from ._rockfrag import Site
-    from ._stages import Fields
+
+    Floats = NDArray[np.float64]
+
+
+def known(array: ArrayLike) -> Floats:
+    """Numbers, NaN where a mask hides them."""
+    if isinstance(array, np.ma.MaskedArray):
+        return np.ma.filled(array.astype(np.float64), np.nan)
+    return np.asarray(array, dtype=np.float64)
+
 
 #: What need not be made an array.
 PLAIN = (float, int, type(None))
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class Response:
+    """The rocking response of a structure to a motion (section 2.2 of the paper)."""
+
+    #: Moments, s: every sample, and every event between them.
+    time: Floats
+    #: Rotation, rad, and angular velocity, rad/s, at these moments.
+    theta: Floats
+    theta_dot: Floats
+    #: Acceleration, m/s2, and velocity, m/s, of the ground.
+    ground_acceleration: Floats
+    ground_velocity: Floats
+    #: Times (s) of uplift, impact, rest and overturn.
+    events: list[tuple[float, str]]
+    #: no_rocking, safe_rocking or overturning.
+    outcome: str
+    #: |theta|max / alpha (Eq. 7); none where it overturns.
+    edp: float | None
+    impacts: int
+    #: Parameters of the structure: rad/s, rad, and the ratio of velocities at impact.
+    p: float
+    alpha: float
+    eta: float
+
+    @property
+    def theta_over_alpha(self) -> Floats:
+        return self.theta / self.alpha
+
+    def plot(self, axes: Any = None) -> Any:
+        """Draws rotation and ground acceleration over time, on two axes of matplotlib; gives these."""
+        return _plots.response(self, axes)
+
+    def __repr__(self) -> str:
+        peak = "" if self.edp is None else f", largest rotation {self.edp:.3g} of the slenderness"
+        impacts = f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
+        structure = f"p {self.p:.3g} rad/s, alpha {self.alpha:.3g}, eta {self.eta:.3g}"
+        return f"{self.outcome.replace('_', ' ')}{peak}, {impacts}; {structure}"
+
+
 @dataclass(eq=False, repr=False)
-class States(_plots.Shown):
+class States:
     """Probabilities of rocking; of failure (rocking beyond the limit state, or overturning); of overturning.
 
     In the paper 1 - P_nr, P_f and (1 - P_nr) P_ro. With 95 % limits, NaN where the model has none.
@@ -45,25 +92,22 @@ class States(_plots.Shown):
     p_overturning_high: Floats
 
     def __repr__(self) -> str:
-        return "\n".join(_plots.line(self, name) for name in _plots.STATES)
+        """A line a probability: the least and the largest of several, with the outermost limits."""
+
+        def line(name: str) -> str:
+            p, low, high = (np.ravel(getattr(self, name + end, np.nan)) for end in ("", "_low", "_high"))
+            ends = " to ".join(sorted({f"{np.min(p):.3g}", f"{np.max(p):.3g}"}, key=float))
+            has_limits = not np.isnan(low).all()
+            return f"{name:13} {ends}" + (f" (95 % limits {np.nanmin(low):.3g} to {np.nanmax(high):.3g})" if has_limits else "")
+
+        return "\n".join(map(line, ("p_rocking", "p_failure", "p_overturning")))
 
 
 @dataclass(eq=False, repr=False)
 class Probabilities(States):
     """The probabilities under motions: arrays of the shape of these, numbers under one."""
 
-    #: Peaks of the motions: g and m/s; None where not given.
-    pga: Floats | float | None
-    pgv: Floats | float | None
     warnings: list[str]
-
-    def plot(self, axes: Any = None) -> Any:
-        """Draws the probabilities over PGA, or over PGV where PGA is one, by matplotlib; gives the axes."""
-        shape = np.shape(self.p_rocking)
-        for label, peak in (("PGA, g", self.pga), ("PGV, m/s", self.pgv)):
-            if len(shape) == 1 and peak is not None and len(np.unique(peak)) > 1:
-                return _plots.fragility(np.asarray(peak), label, self, axes)
-        raise ValueError(f"probabilities of the shape {shape} are no curve; expected (n,), n > 1")
 
 
 @dataclass(eq=False, repr=False)
@@ -103,14 +147,14 @@ class Fragility(States):
 
     def plot(self, axes: Any = None) -> Any:
         """Draws the probabilities with their limits by matplotlib; gives the axes."""
-        return _plots.fragility(self.intensity, self.label, self, axes)
+        return _plots.fragility(self, axes)
 
     def __repr__(self) -> str:
         name, unit = self.label.split(", ")
         ends = (self.row[f"overturning_theta{end}"] for end in ("", "_low", "_high"))
         last = self.intensity[-1]
         half, low, high = [f"{'> ' * (end != end)}{np.fmin(end, last):.3g} {unit}" for end in ends]
-        return f"half of the motions overturn it at {name} {half} (95 % limits {low} to {high})"
+        return f"overturns at a median {name} of {half} (95 % limits {low} to {high})"
 
 
 class Object:
@@ -137,7 +181,8 @@ class Object:
     @property
     def parameters(self) -> tuple[float, float, float]:
         """p (rad/s), alpha (rad) and eta, of the weaker direction."""
-        return self._object.parameters
+        p, alpha, eta = self._object.parameters
+        return p, alpha, eta
 
     def probability(
         self,
@@ -163,14 +208,14 @@ class Object:
         sent = [each if isinstance(each, PLAIN) else each.tobytes() for each in given]
         found, warnings = self._object.probability(math.prod(shape), sent[0], sent[1], sent[2], vs30)
         if warnings:
-            _bridge.warn(warnings)
+            _call.warn(warnings)
         states = np.frombuffer(found).reshape(7, *shape) if shape else struct.unpack("7d", found)
-        return Probabilities(*states, given[0], given[1], warnings)  # type: ignore[call-arg]
+        return Probabilities(*states, warnings)  # type: ignore[call-arg]
 
     def rate(self, site: Site, years: float = 50.0) -> Rate:
         """Annual rates, and the probabilities in so many years, at a site."""
         columns, warnings = self._object.rate(site, years)
-        _bridge.warn(warnings)
+        _call.warn(warnings)
         names = [field.name for field in fields(Rate) if field.name in columns]
         return Rate(**{name: np.frombuffer(columns[name])[0] for name in names}, warnings=warnings)
 
@@ -187,7 +232,7 @@ class Object:
         Magnitude, Vs30 (m/s) and PGV / PGA (s) narrow these; ``evaluate(over=..., hazard=...)`` is for a site.
         """
         columns, warnings = self._object.fragility(over, magnitude, vs30, ratio)
-        _bridge.warn(warnings)
+        _call.warn(warnings)
         arrays = {name: np.frombuffer(of) for name, of in columns.items() if isinstance(of, bytes)}
         row = {name: float(column[0]) for name, column in arrays.items() if len(column) == 1}
         points = {field.name: arrays[field.name] for field in fields(States)}
@@ -203,7 +248,7 @@ class Object:
         if samples.ndim != 1:
             raise ValueError(f"acceleration has {samples.ndim} dimensions; expected 1")
         solved = _rockfrag.simulate_motion(self._object, samples.tobytes(), dt, tail)
-        _bridge.warn(solved.pop("warnings"))
+        _call.warn(solved.pop("warnings"))
         array = {name: np.frombuffer(value) for name, value in solved.items() if isinstance(value, bytes)}
         return Response(**{**solved, **array})
 
@@ -216,14 +261,11 @@ class Object:
         return partial(Object, **self._given), ()
 
 
-#: The fields, as the command helps with them.
-Object.__doc__ = f"{cleandoc(Object.__doc__ or '')}\n\n{_bridge.listed(_rockfrag.fields())}"
-
-
-def fragility(over: Literal["pga", "pgv"] = "pgv", **options: Any) -> Fragility:
-    """The fragility of an object of these fields; it also takes the options of :meth:`Object.fragility`."""
-    sites = {name: options.pop(name) for name in ("magnitude", "vs30", "ratio") if name in options}
-    return Object(**options).fragility(over, **sites)
+Object.__doc__ = f"{cleandoc(Object.__doc__ or '')}\n\n{cleandoc(Fields.__doc__ or '')}"
+Object.__signature__ = Signature(  # type: ignore[attr-defined]
+    [Parameter(name, Parameter.KEYWORD_ONLY, default=None) for name in (*Fields.__annotations__, "suite", "fits")]
+    + [Parameter("limit_state", Parameter.KEYWORD_ONLY, default=0.1)]
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -252,7 +294,7 @@ def simulate_motions(
     if any(record.ndim != 1 for record in records) or len(steps) not in (1, len(records)):
         raise ValueError("expected accelerations of the shape (records, samples), and dt of all or each")
     solved = [each._object for each in ([objects] if isinstance(objects, Object) else objects)]
-    told = _bridge.teller("simulate_motions", progress)
+    told = _call.teller("simulate_motions", progress)
     sent = [record.tobytes() for record in records]
     edp, overturned = _rockfrag.simulate_motions(sent, steps, solved, threads, told)
     shape = (len(records),) if isinstance(objects, Object) else (len(records), len(solved))

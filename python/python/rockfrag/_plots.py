@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import html
-import io
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from ._arrays import Floats, Response
+    from ._objects import Fragility, Response
 
 #: Colours of the overturning structure, of the limit state, of the ground and of marks.
-OVERTURNING, FAILURE, GROUND, MARK = "#b3342c", "#d98f2b", "#5b6770", "#22303c"
+OVERTURNING, FAILURE, GROUND, MARK = "#cf5412", "#0069a8", "#5b6770", "#22303c"
 
 
 def axes(rows: int = 1, **options: Any) -> Any:
@@ -53,58 +49,17 @@ def response(of: Response, on: Any = None) -> Any:
     return on
 
 
-def curves(
-    x: Floats, label: str, named: Sequence[tuple[str, Floats, Floats, Floats]], on: Any = None
-) -> Any:
-    """Probabilities over an intensity, each with its limits as a band."""
+def fragility(of: Fragility, on: Any = None) -> Any:
+    """The probabilities of overturning and of failure over the peak, each with its limits as a band."""
     if on is None:
         on = axes(figsize=(6.0, 3.8))
-    order = np.argsort(x)
-    for (name, p, low, high), color in zip(named, (OVERTURNING, FAILURE, MARK), strict=False):
-        on.fill_between(x[order], low[order], high[order], color=color, alpha=0.18, lw=0)
-        on.plot(x[order], p[order], color=color, lw=1.6, label=name)
-    on.set_xlabel(label)
-    on.set_ylabel("probability")
-    on.set_ylim(0.0, 1.0)
+    for name, words, color in (
+        ("p_overturning", "overturns", OVERTURNING),
+        ("p_failure", "overturns, or rocks too far", FAILURE),
+    ):
+        p, low, high = (getattr(of, name + end) for end in ("", "_low", "_high"))
+        on.fill_between(of.intensity, low, high, color=color, alpha=0.18, lw=0)
+        on.plot(of.intensity, p, color=color, lw=1.6, label=words)
+    on.set(xlabel=of.label, ylabel="probability", ylim=(0.0, 1.0))
     on.legend(frameon=False)
     return on
-
-
-#: The limit states, in words.
-STATES = {"p_rocking": "rocks", "p_failure": "overturns, or rocks too far", "p_overturning": "overturns"}
-
-
-def fragility(x: Floats, label: str, of: Any, on: Any = None) -> Any:
-    """The probabilities of overturning and of failure, with their limits."""
-    ends = ("", "_low", "_high")
-    states = ("p_overturning", "p_failure")
-    named: Any = [(STATES[p], *(np.ravel(getattr(of, p + end)) for end in ends)) for p in states]
-    return curves(x, label, named, on)
-
-
-def line(of: Any, name: str) -> str:
-    """A probability, or the least and the largest of several, with the outermost limits."""
-    p, low, high = (np.ravel(getattr(of, name + end, np.nan)) for end in ("", "_low", "_high"))
-    p, low, high = p[~np.isnan(p)], low[~np.isnan(low)], high[~np.isnan(high)]
-    ends = " to ".join(sorted({f"{p.min():.3g}", f"{p.max():.3g}"}, key=float)) if p.size else "none"
-    limits = f"  (95 % limits {low.min():.3g} to {high.max():.3g})" if low.size else ""
-    return f"{name:13} {STATES[name]:<27} {ends}{limits}"
-
-
-class Shown:
-    """What a notebook shows as text, and below it as a picture where there is one and matplotlib is installed."""
-
-    plot: Any
-
-    def _repr_html_(self) -> str:
-        shown = f"<pre>{html.escape(repr(self))}</pre>"
-        try:
-            drawn = self.plot()
-        except (ImportError, ValueError):
-            return shown
-        from matplotlib import pyplot
-
-        figure, svg = np.ravel(drawn)[0].figure, io.StringIO()
-        figure.savefig(svg, format="svg")
-        pyplot.close(figure)
-        return shown + svg.getvalue()[svg.getvalue().index("<svg") :]

@@ -6,10 +6,13 @@ import html
 import importlib
 import json
 import shutil
+import tempfile
 import weakref
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from . import _rockfrag
 
@@ -21,6 +24,17 @@ if TYPE_CHECKING:
     import pyarrow
 
 
+class Folder:
+    """A temporary folder, which goes with the last result that has it."""
+
+    def __init__(self) -> None:
+        self.path = Path(tempfile.mkdtemp(prefix="rockfrag."))
+        weakref.finalize(self, shutil.rmtree, self.path, ignore_errors=True)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a temporary table cannot be copied; expected a result with out=, or its to_polars()")
+
+
 class Result:
     """A table that a stage has written: any library that speaks Arrow takes it, row group by row group.
 
@@ -29,23 +43,19 @@ class Result:
     """
 
     def __init__(
-        self, stage: str, path: Path | None, summary: str, warnings: list[str], folder: Path | None = None
+        self, stage: str, path: Path | None, summary: str, warnings: list[str], folder: Folder | None = None
     ) -> None:
         self.stage, self.summary, self.warnings = stage, summary, warnings
         self.path = path and path.absolute()
-        self._written = self._state()
-        self._owner: Result | None = None
         self._folder = folder
-        if folder is not None:
-            weakref.finalize(self, shutil.rmtree, folder, ignore_errors=True)
+        self._written = path and path.stat().st_mtime_ns
 
     def part(self, name: str) -> Result:
         """Another table of the stage: ``fit_pro(...).part("parameters")`` is ``pro.parameters.parquet``."""
-        part = Result(self.stage, self._table().with_suffix(f".{name}.parquet"), self.summary, self.warnings)
-        if not part._table().exists():
+        path = self._table().with_suffix(f".{name}.parquet")
+        if not path.exists():
             raise ValueError(f"{self.stage} has no part '{name}'; expected one of {', '.join(self.parts)}")
-        part._owner = self
-        return part
+        return Result(self.stage, path, self.summary, self.warnings, self._folder)
 
     @property
     def parts(self) -> list[str]:
@@ -90,36 +100,12 @@ class Result:
         library("pandas")
         return self.to_pyarrow().to_pandas()
 
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        """Its rows, by which ``pandas.DataFrame(result)`` is made."""
-        return iter(self.to_pyarrow().to_pylist())
-
-    def __copy__(self) -> Result:
-        return self
-
-    def __deepcopy__(self, memo: object) -> Result:
-        return self
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        owner = self._owner or self
-        if owner._folder is not None:
-            raise TypeError(
-                f"the table of {self.stage} is temporary and cannot be pickled; expected a result with out=, or its to_polars()"
-            )
-        return Result, (self.stage, self.path, self.summary, self.warnings)
-
     def _table(self) -> Path:
         if self.path is None or self.path.suffix != ".parquet":
             raise ValueError(f"{self.stage} wrote no table; .summary has what it prints")
-        if self._state() not in (None, self._written):
+        if self.path.stat().st_mtime_ns != self._written:
             raise _rockfrag.Error(f"{self.path}: changed since {self.stage} wrote it; call it again")
         return self.path
-
-    def _state(self) -> tuple[int, int] | None:
-        if self.path is None or not self.path.exists():
-            return None
-        found = self.path.stat()
-        return found.st_ino, found.st_mtime_ns
 
     def __repr__(self) -> str:
         warnings = [f"warning: {warning}" for warning in self.warnings]
@@ -141,9 +127,6 @@ def library(name: str) -> Any:
 
 def array(column: bytes | list[Any]) -> NDArray[Any]:
     """A column of numbers, or of texts and lists."""
-    # The stub is made by this package where there is no numpy.
-    import numpy as np
-
     if isinstance(column, bytes):
         return np.frombuffer(column)
     found = np.empty(len(column), dtype=object)

@@ -20,7 +20,8 @@ try:
 except ModuleNotFoundError as missing:
     raise ImportError("rockfrag.ray needs Ray: pip install 'rockfrag[ray]'") from missing
 
-from . import _bridge
+from . import _stages
+from ._result import Result
 
 __all__ = ["simulate", "synthesize"]
 
@@ -60,4 +61,5 @@ def _each(
 
 
 def _one(stage: str, source: Path, call: dict[str, object]) -> Path | None:
-    return _bridge.functions[stage](source, **call).path
+    made: Result = getattr(_stages, stage)(source, **call)
+    return made.path
