@@ -6,7 +6,6 @@
 #     make wheel           the Python package, with the command: a wheel in target/dist
 #     make check-wheel     its tests, and README and docs, from that wheel in a new environment without a compiler
 #     make archive crates checksums    the rest of a release: the program, both crates, SHA256SUMS
-#     make check-docs      the commands of README and docs
 #     make check-exports   OpenQuake and pelicun read what export writes (1.5 GB for the time of the check)
 #     make spread          the numbers over twenty seeds that are shipped in data/
 #     make universal       the fragility surface that is shipped, of data/records.csv: AT2=folder; without it, that of
@@ -32,7 +31,7 @@ COMPATIBILITY ?= pypi
 CRATES ?= package --no-verify --allow-dirty
 
 .PHONY: all check test wheel check-wheel archive crates checksums
-.PHONY: check-docs check-exports spread universal picture peers clean
+.PHONY: check-exports spread universal picture peers clean
 
 all: $(OUT)/paper.parquet $(OUT)/report.html
 
@@ -73,7 +72,7 @@ check-wheel:
 	python3 -m venv --clear $(VENV)
 	$(BIN)/pip install --quiet --only-binary :all: "$$(ls $(DIST)/*.whl)[test]"
 	$(BIN)/python -m pytest --quiet python
-	python3 scripts/check_docs.py $(BIN)/rockfrag$(EXE) --python $(BIN)/python$(EXE)
+	python3 scripts/check_docs.py $(BIN)
 
 archive: $(PROGRAM)
 	mkdir -p $(DIST)
@@ -85,9 +84,6 @@ crates:
 
 checksums:
 	cd $(DIST) && sha256sum rockfrag-* > SHA256SUMS
-
-check-docs: | $(BUILT)
-	python3 scripts/check_docs.py $(ROCKFRAG)
 
 check-exports: | $(BUILT)
 	scripts/check_exports.sh $(ROCKFRAG)

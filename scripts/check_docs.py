@@ -1,15 +1,14 @@
-"""Runs the commands of README.md and docs: check_docs.py ROCKFRAG [--python PYTHON]
+"""Runs the commands of README.md and docs with an environment that has the wheel: check_docs.py BIN
 
     ```sh         run, and must end with exit code 0
     ```text       after ```sh: an output, perhaps in part; its lines must stand in what came out, in this order
-    ```python     run as one script a page by --python (a Python with the package), but for those with "# not run"
+    ```python     run as one script a page, but for those with "# not run"
     ```console    not run: what installs, compiles, or needs a cluster
     `scripts/...` and the like, and links: must exist
 
 Each page has a folder of its own with data, scripts, python and pipeline.yaml of the repository.
 """
 
-import argparse
 import functools
 import os
 import pathlib
@@ -31,7 +30,7 @@ def missing(shown, output):
     return next((line for line in lines(shown) if line not in found), None)
 
 
-def faults(page, environment, python):
+def faults(page, environment):
     """What is wrong with a page."""
     text = page.read_text()
     for name in map("".join, NAMED.findall(text)):
@@ -55,20 +54,15 @@ def faults(page, environment, python):
                 yield f"line {line}: '{other}' is not in the output\n{done.stdout}"
         of_python = (content for language, content, _ in blocks if language == "python")
         scripts = [content for content in of_python if not content.startswith("# not run")]
-        done = run([python, "-c", "\n".join(scripts)]) if python and scripts else None
-        if done and done.returncode:
+        done = run(["python", "-c", "\n".join(scripts)])
+        if done.returncode:
             yield f"python: exit code {done.returncode}\n{done.stdout}"
 
 
-parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-parser.add_argument("rockfrag", type=pathlib.Path)
-parser.add_argument("--python", type=pathlib.Path)
-options = parser.parse_args()
-path = f"{options.rockfrag.absolute().parent}{os.pathsep}{os.environ['PATH']}"
+path = f"{os.path.abspath(sys.argv[1])}{os.pathsep}{os.environ['PATH']}"
 environment = {**os.environ, "PATH": path, "MPLBACKEND": "Agg"}
 pages = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
-python = options.python and options.python.absolute()
-wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment, python)]
+wrong = [f"{page}, {fault}" for page in pages for fault in faults(page, environment)]
 if wrong:
     sys.exit("\n".join(wrong))
 print(f"{len(pages)} pages: every command runs, and prints the lines that are shown")
