@@ -1,7 +1,7 @@
 """The table of speeds, rockfrag beside its peers, as Markdown: python scripts/peers/table.py ROCKFRAG
 
-Needs numpy, numba, statsmodels and pyarrow, and GNU time. Medians of five runs, both sides in turns; peers
-and the solver run on one core, the solver by `cargo bench --bench speed`. Of a peer: table.py PEER FILE.
+Needs numpy, numba, statsmodels and pyarrow, and taskset. Medians of five runs, both sides in turns. The solver runs by
+`cargo bench --bench speed`. Of a peer: table.py PEER FILE.
 """
 
 import json
@@ -17,6 +17,7 @@ import warnings
 import numpy as np
 import pyarrow.dataset  # noqa: F401
 import pyarrow.parquet as pq
+from scipy.stats import norm
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[1]))
 ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
@@ -32,13 +33,13 @@ def read(file):
 
 
 def rocking(file):
-    """Milliseconds a motion of a solver in Python written for speed, on one thread, once it is compiled: the
-    paper's electrical equipment under all motions, each with rest behind it."""
-    from rocking import FREE, demand, rested
+    """Milliseconds a motion of a scalar solver by Numba, once it is compiled: the paper's electrical equipment
+    under all motions."""
+    from rocking import FREE, demand
 
     sides, names = np.array([[0.20, 2.5, 0.92]] * 2), ["dt_s", "acceleration_m_s2"]
     columns = (column.to_pylist() for column in pq.read_table(file, columns=names).columns)
-    motions = [(rested(np.array(acceleration) / 9.81, dt), dt) for dt, acceleration in zip(*columns)]
+    motions = [(np.array(acceleration) / 9.81, dt) for dt, acceleration in zip(*columns)]
     demand(*motions[0], sides, FREE)  # compiles
     start = time.process_time()
     for motion in motions:
@@ -48,14 +49,28 @@ def rocking(file):
 
 def fits(file):
     """Seconds of the fits by suite and structure: the demand in safe rocking on each measure and on both planes
-    (OLS), overturning on each measure and on the hybrid (probit), with covariance."""
+    (OLS), overturning on each measure and on the hybrid (probit), with covariance by cells of magnitude and distance
+    and the mean log score of ten folds of cells."""
     import statsmodels.api as sm
 
     warnings.simplefilter("ignore")
     np.seterr(all="ignore")
-    table = pq.read_table(file, columns=["suite", "structure", "outcome", "edp", *MEASURES])
-    columns = {name: table[name].to_numpy(zero_copy_only=False) for name in table.column_names}
+    names = ["suite", "structure", "outcome", "edp", "mw", "re_km", *MEASURES]
+    columns = {name: column.to_numpy() for name, column in zip(names, pq.read_table(file, columns=names).columns)}
     groups = np.char.add(columns["suite"].astype(str), columns["structure"].astype(str))
+    cells = np.unique(np.column_stack([columns["mw"], columns["re_km"]]), axis=0, return_inverse=True)[1].ravel()
+
+    def fit(model, y, measures, chosen, options, score):
+        design = sm.add_constant(np.column_stack([ln[name] for name in measures]))
+        chosen = chosen & np.isfinite(design).all(axis=1) & np.isfinite(y)
+        y, design, cell = y[chosen], design[chosen], cells[rows][chosen]
+        model(y, design).fit(**options, cov_type="cluster", cov_kwds={"groups": cell}).cov_params()
+        left_out = [(cell % 10 == fold, cell % 10 != fold) for fold in range(10)]
+        fits = ((out, model(y[kept], design[kept]).fit(**options)) for out, kept in left_out)
+        return np.mean(np.concatenate([score(fitted, y[out], design[out] @ fitted.params) for out, fitted in fits]))
+
+    normal = lambda fitted, y, mean: norm.logpdf(y, mean, np.sqrt(fitted.scale))
+    binary = lambda fitted, y, z: norm.logcdf(np.where(y == 1.0, z, -z))
     start = time.perf_counter()
     for group in np.unique(groups):
         rows = groups == group
@@ -65,29 +80,24 @@ def fits(file):
         sides, alone = [(ln["im4"] >= 0) & below, ~below], [(name,) for name in MEASURES]
         planes = [(("im4", "im3"), safe & side) for side in sides]
         for measures, chosen in [(one, safe) for one in alone] + planes:
-            design = sm.add_constant(np.column_stack([ln[name] for name in measures]))
-            chosen = chosen & np.isfinite(design).all(axis=1) & np.isfinite(ln["edp"])
-            sm.OLS(ln["edp"][chosen], design[chosen]).fit().cov_params()
+            fit(sm.OLS, ln["edp"], measures, chosen, {}, normal)
+        overturns = (outcome == "overturning").astype(float)
         for measures in [*alone, ("im4", "im3")]:
-            design = sm.add_constant(np.column_stack([ln[name] for name in measures]))
-            chosen = rocks & np.isfinite(design).all(axis=1)
-            event = (outcome[chosen] == "overturning").astype(float)
-            sm.Probit(event, design[chosen]).fit(disp=0, maxiter=100).cov_params()
+            fit(sm.Probit, overturns, measures, rocks, {"disp": 0, "maxiter": 100}, binary)
     return time.perf_counter() - start
 
 
 def run(*command, environment=None):
-    """Wall time of a command, s, what it prints, and its largest resident set, MB."""
+    """Wall time of a command, s, and what it prints."""
     start = time.perf_counter()
-    command = ["/usr/bin/time", "-f", "%M", *map(str, command)]
-    done = subprocess.run(command, capture_output=True, text=True, env=environment, check=True)
-    return time.perf_counter() - start, done.stdout, int(done.stderr.split()[-1]) / 1e3
+    done = subprocess.run(list(map(str, command)), capture_output=True, text=True, env=environment, check=True)
+    return time.perf_counter() - start, done.stdout
 
 
 def peer(name, file):
     """The figure of a peer, in a process of its own."""
-    command = "taskset", "-c", 0, sys.executable, __file__, name, file
-    return float(run(*command, environment=ONE_THREAD)[1])
+    one_core = ([], None) if name == "read" else (["taskset", "-c", 0], ONE_THREAD)
+    return float(run(*one_core[0], sys.executable, __file__, name, file, environment=one_core[1])[1])
 
 
 def row(work, unit, peer, pairs):
@@ -106,19 +116,17 @@ with tempfile.TemporaryDirectory() as folder:
     csgm = lambda name: tool("synthesize-motions", name, "--suite=csgm", "--in", at("scenarios"))
     size = "--p=2.5", "--alpha=.2", "--eta=.92"
     simulate = lambda name: tool("simulate", "responses", *size, "--in", at(name))
-    tool("sample-scenarios", "scenarios", "--samples=100")
+    tool("sample-scenarios", "scenarios", "--samples=20")
     csgm("motions")
     print("| work | rockfrag | against | theirs | theirs / ours |\n|---|---|---|---|---|")
-    solver_us = json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"]
-    pairs = [(solver_us / 1e3, peer("rocking", at("motions")))]
-    row("solver, one core, a motion", "ms", "Numba, Taylor series", pairs)
+    bench = lambda: json.loads(run("cargo", "bench", "--bench", "speed")[1].splitlines()[-1])["solver_us"] / 1e3
+    pairs = [(bench(), peer("rocking", at("motions"))) for _ in range(REPEAT)]
+    row("solver, one core, a motion", "ms", "our scalar solver by Numba", pairs)
+    tool("sample-scenarios", "scenarios", "--samples=100")
+    csgm("motions")
     pairs = [(simulate("motions")[0], peer("read", at("motions"))) for _ in range(REPEAT)]
-    row("simulate, whole command", "s", "pyarrow, the read alone", pairs)
+    row("simulate, whole command, all cores", "s", "pyarrow, the read alone, all cores", pairs)
     tool("simulate", "paper", "--structures=paper", "--in", at("motions"))
     fit = lambda name: tool(name, name, "--all", "--threads=1", "--in", at("paper"))[0]
     pairs = [(fit("fit-pex") + fit("fit-pro"), peer("fits", at("paper"))) for _ in range(REPEAT)]
-    row("all fits of both structures, one core", "s", "statsmodels, the fits alone", pairs)
-    small = simulate("motions")[2]
-    tool("sample-scenarios", "scenarios", "--samples=1000")
-    csgm("ten")
-    row("simulate, peak memory, 35,000 motions", "MB", "3500 motions", [(simulate("ten")[2], small)])
+    row("all fits with held-out scores, whole commands, one core", "s", "statsmodels, the fits alone", pairs)
