@@ -60,7 +60,7 @@ impl Warning {
             LoweredPeak => "PGA after resampling: a smaller --resample keeps the peak",
             ImplausibleSize => "taller or more slender than all but a few monuments: a wrong unit?",
             LowRestitution => "eta is below 0.5, lower than tests of rocking blocks show",
-            RoundBase => "a round base: it falls 1.2 to 1.3 times as often as this square one",
+            RoundBase => "a round base: it overturns more often than this square one",
             HazardEndsEarly => {
                 "the hazard curve ends too early: its last slope is continued, with wide limits"
             }
