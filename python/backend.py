@@ -16,7 +16,7 @@ HEAD = '''"""Every stage of the command as a function. Made by backend.py."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike
 from typing import Any, Literal, TypedDict
 
@@ -87,11 +87,12 @@ def listed(helps):
 
 
 def type_of(option):
-    """What an option takes. Angles may have a unit, a target has its percent sign."""
+    """What an option takes. Angles may have a unit, columns are also a mapping, a target has its percent sign."""
     plain = {"float": "float", "int": "int", "path": "Path", "text": "Any"}
     one = plain[option["type"]] if isinstance(option["type"], str) else f"Literal{option['type']}"
     one = {"eta": "float | Literal['housner']", "wall": "bool | float | Literal['yes']"}.get(option["name"], one)
     one = "bool" if option["kind"] == "flag" or option["name"].startswith("fixed_to") else one
-    one = f"{one} | str" if option["name"] in ("alpha", "alpha_sd", "target") else one
+    one = f"{one} | str" if option["name"] in ("alpha", "alpha_sd") else one
+    one = {"target": "str", "columns": "str | Mapping[str, str]"}.get(option["name"], one)
     one = "Any" if option["kind"] == "input" else one
     return f"{one} | Sequence[{one}]" if option["many"] and one != "Any" else one

@@ -19,9 +19,9 @@ def velocity_in(seconds: float) -> np.ndarray:
     return np.array(found)
 
 
-measures = {"PGA": records["pga_m_s2"], "PGV": records["pgv_m_s"], "PGD": records["pgd_m"]}
-measures |= {f"velocity in {seconds} s": velocity_in(seconds) for seconds in (0.25, 0.5, 1.0)}
-print("measure            median  dispersion of ln at which the block overturns")
+measures = {"PGA, m/s2": records["pga_m_s2"], "PGV, m/s": records["pgv_m_s"], "PGD, m": records["pgd_m"]}
+measures |= {f"velocity in {seconds} s, m/s": velocity_in(seconds) for seconds in (0.25, 0.5, 1.0)}
+print("measure                    median  dispersion of ln at which the block overturns")
 for name, measure in measures.items():
     ln = np.log(measure * capacity["overturning_intensity"])
-    print(f"{name:18} {np.exp(np.nanmedian(ln)):6.3g} {np.nanstd(ln, ddof=1):11.2f}")
+    print(f"{name:26} {np.exp(np.nanmedian(ln)):6.3g} {np.nanstd(ln, ddof=1):11.2f}")

@@ -95,7 +95,8 @@ pub fn simulate_motion<'py>(
 }
 
 /// Simulates all objects under all records (m/s2), each with its `dt_s` or the only one: for each record and
-/// object in turn |theta|max / alpha, NaN where it overturns, and 1 where it does.
+/// object in turn |theta|max / alpha, NaN where it overturns, and 1 where it does; and a warning of the first
+/// record that cannot be one.
 #[pyfunction]
 pub fn simulate_motions<'py>(
     py: Python<'py>,
@@ -104,7 +105,7 @@ pub fn simulate_motions<'py>(
     objects: Vec<PyRef<PyObject>>,
     threads: Option<usize>,
     progress: Option<Py<PyAny>>,
-) -> PyResult<[Bound<'py, PyBytes>; 2]> {
+) -> PyResult<(Bound<'py, PyBytes>, Bound<'py, PyBytes>, Option<String>)> {
     let structures =
         objects.iter().map(|object| object.structure()).collect::<anyhow::Result<Vec<Structure>>>();
     let structures = structures.map_err(|error| to_python(&error))?;
@@ -113,22 +114,35 @@ pub fn simulate_motions<'py>(
         let all = records.par_chunks(CHUNK).enumerate().map(|(chunk, some)| {
             common.observed.expect_running()?;
             let samples: Vec<Vec<f64>> = some.iter().map(|bytes| numbers(bytes)).collect();
-            let checked = samples.iter().zip(CHUNK * chunk..).map(|(samples, at)| {
-                let found = record(samples, dt_s[if dt_s.len() == 1 { 0 } else { at }]);
-                found.map_err(|problem| UsageError::because(format!("accelerations[{at}]: {problem}")))
+            let told = |at: usize, problem: String| format!("accelerations[{at}]: {problem}");
+            let dt_s = |at: usize| dt_s[if dt_s.len() == 1 { 0 } else { at }];
+            let numbered = || samples.iter().zip(CHUNK * chunk..);
+            let checked = numbered().map(|(samples, at)| {
+                record(samples, dt_s(at)).map_err(|problem| UsageError::because(told(at, problem)))
             });
             let checked = checked.collect::<anyhow::Result<Vec<Record>>>()?;
+            let implausible = numbered().filter_map(|(samples, at)| {
+                implausibility(samples, dt_s(at)).map(|problem| told(at, problem.to_string()))
+            });
+            let implausible: Vec<String> = implausible.collect();
             let pairs = checked
                 .iter()
                 .flat_map(|&record| structures.iter().map(move |structure| Problem { structure, record }));
             let responses = simulate_all(&pairs.collect::<Vec<_>>());
             common.observed.done.fetch_add(some.len(), Ordering::Relaxed);
-            Ok(responses)
+            Ok((responses, implausible))
         });
-        Ok(all.collect::<anyhow::Result<Vec<Vec<Response>>>>()?.concat())
+        let (responses, implausible): (Vec<_>, Vec<_>) =
+            all.collect::<anyhow::Result<Vec<_>>>()?.into_iter().unzip();
+        Ok((responses.concat(), implausible.concat()))
     };
-    let responses = run(py, threads, progress.as_ref(), work)?;
+    let (responses, implausible): (Vec<Response>, Vec<String>) = run(py, threads, progress.as_ref(), work)?;
     let edp = responses.iter().map(|response| response.outcome.demand().unwrap_or(f64::NAN));
     let overturned = responses.iter().map(|response| u8::from(response.outcome == Outcome::Overturned));
-    Ok([bytes(py, edp), PyBytes::new(py, &overturned.collect::<Vec<u8>>())])
+    let warning = match &implausible[..] {
+        [] => None,
+        [one] => Some(one.clone()),
+        [first, others @ ..] => Some(format!("{first} (and {} more)", others.len())),
+    };
+    Ok((bytes(py, edp), PyBytes::new(py, &overturned.collect::<Vec<u8>>()), warning))
 }

@@ -113,9 +113,10 @@ impl PyObject {
         vs30: Option<f64>,
     ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
         expect_site(None, vs30, None)?;
-        let motions = motions(number, [pga_g, pgv_m_s, magnitude], vs30)?;
+        let (motions, is_at_rim) = motions(number, [pga_g, pgv_m_s, magnitude], vs30)?;
         let (rocking, mut warnings) = (self.rocking.clone(), BTreeSet::from_iter(self.warnings.clone()));
         warnings.extend(rocking.structure_warnings());
+        warnings.extend(is_at_rim.then_some(Warning::AtRim));
         let states = if number <= FEW {
             py.detach(|| motions.iter().map(|motion| under(&rocking, motion)).collect())
         } else {
@@ -233,8 +234,12 @@ enum Numbers {
     Many(PyBackedBytes),
 }
 
-/// PGA, PGV and magnitude of each motion.
-fn motions(number: usize, given: [Option<Numbers>; 3], vs30_m_s: Option<f64>) -> PyResult<Vec<GroundMotion>> {
+/// PGA, PGV and magnitude of each motion; of several, those that no motion has are held at the rim of records.
+fn motions(
+    number: usize,
+    given: [Option<Numbers>; 3],
+    vs30_m_s: Option<f64>,
+) -> PyResult<(Vec<GroundMotion>, bool)> {
     let [pga, pgv, mw] = given.map(|of| {
         of.map(|of| match of {
             Numbers::One(number) => vec![number],
@@ -247,15 +252,27 @@ fn motions(number: usize, given: [Option<Numbers>; 3], vs30_m_s: Option<f64>) ->
     if pga.is_some() && pgv.is_some() && vs30_m_s.is_some() {
         return Err(PyValueError::new_err("vs30 only estimates a missing peak; both are given"));
     }
-    let all = (0..number).map(|k| {
-        let at = |of: &Option<Vec<f64>>| of.as_ref().map(|of| of[k]);
-        let (pga_m_s2, pgv_m_s) = (at(&pga).map(|g| g * G_M_S2), at(&pgv));
-        if let (Some(pga_m_s2), Some(pgv_m_s)) = (pga_m_s2, pgv_m_s) {
-            Peaks { pga_m_s2, pgv_m_s }.validate().map_err(PyValueError::new_err)?;
+    let at = |of: &Option<Vec<f64>>, k: usize| of.as_ref().map(|of| of[k]);
+    let mut all: Vec<GroundMotion> = (0..number)
+        .map(|k| GroundMotion {
+            pga_m_s2: at(&pga, k).map(|g| g * G_M_S2),
+            pgv_m_s: at(&pgv, k),
+            mw: at(&mw, k),
+            vs30_m_s,
+        })
+        .collect();
+    let mut is_at_rim = false;
+    for motion in &mut all {
+        let GroundMotion { pga_m_s2: Some(pga_m_s2), pgv_m_s: Some(pgv_m_s), .. } = *motion else { break };
+        let given = Peaks { pga_m_s2, pgv_m_s };
+        if number == 1 {
+            given.validate().map_err(PyValueError::new_err)?;
         }
-        Ok(GroundMotion { pga_m_s2, pgv_m_s, mw: at(&mw), vs30_m_s })
-    });
-    all.collect()
+        let peaks = given.clamp_to_recorded();
+        is_at_rim |= peaks != given;
+        (motion.pga_m_s2, motion.pgv_m_s) = (Some(peaks.pga_m_s2), Some(peaks.pgv_m_s));
+    }
+    Ok((all, is_at_rim))
 }
 
 /// Refuses what is out of range.

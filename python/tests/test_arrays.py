@@ -48,6 +48,8 @@ def test_probabilities_and_rates_are_those_of_evaluate(fields):
 
 def test_many_probabilities_are_each_of_them():
     asked, pga = rockfrag.Object(**BLOCK), np.linspace(0.0, 1.5, 500)
+    with pytest.warns(UserWarning, match="answered at that limit"):
+        assert np.ptp(asked.probability(0.05, [0.1, 1.45, 1.5]).p_failure[1:]) < 0.02
     many = asked.probability(pga, 0.9 * pga)
     assert many.p_overturning[77] == asked.probability(pga[77], 0.9 * pga[77]).p_overturning
     assert np.isfinite(many.p_overturning).all() and many.p_overturning[0] == 0

@@ -26,6 +26,8 @@ def call(stage: str, given: dict[str, Any], tables: list[str], first: str) -> Re
     folder = None if "out" in words or stage in ("export", "report") else Folder()
     if folder is not None:
         words["out"] = folder.path / f"{stage}.parquet"
+    if isinstance(words.get("columns"), Mapping):
+        words["columns"] = [f"{column}={heading}" for column, heading in words["columns"].items()]
     with tempfile.TemporaryDirectory(prefix="rockfrag.") as scratch:
         for name in map(flag, tables):
             if name in words:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import struct
 from dataclasses import dataclass, fields
 from functools import partial
 from inspect import Parameter, Signature, cleandoc
@@ -55,6 +54,7 @@ class Response:
     outcome: str
     #: |theta|max / alpha (Eq. 7); none where it overturns.
     edp: float | None
+    #: During the motion; events has those of the quiet after it too.
     impacts: int
     #: Parameters of the structure: rad/s, rad, and the ratio of velocities at impact.
     p: float
@@ -70,10 +70,8 @@ class Response:
         return _plots.response(self, axes)
 
     def __repr__(self) -> str:
-        peak = "" if self.edp is None else f", largest rotation {self.edp:.3g} of the slenderness"
-        impacts = f"{self.impacts} impact{'' if self.impacts == 1 else 's'}"
-        structure = f"p {self.p:.3g} rad/s, alpha {self.alpha:.3g}, eta {self.eta:.3g}"
-        return f"{self.outcome.replace('_', ' ')}{peak}, {impacts}; {structure}"
+        peak = "" if self.edp is None else f", largest rotation {self.edp:.3g} of the slenderness angle"
+        return f"{self.outcome.replace('_', ' ')}{peak}"
 
 
 @dataclass(eq=False, repr=False)
@@ -176,7 +174,7 @@ class Object:
         given = [(name, value) for name, value in fields.items() if value is not None]
         texts = [(name, words[value] if isinstance(value, bool) else str(value)) for name, value in given]
         self._object = _rockfrag.Object(texts, limit_state, suite, fits)
-        self._given: dict[str, Any] = {"limit_state": limit_state, "suite": suite, "fits": fits, **fields}
+        self._given: dict[str, Any] = {**fields, "suite": suite, "fits": fits, "limit_state": limit_state}
 
     @property
     def parameters(self) -> tuple[float, float, float]:
@@ -209,7 +207,7 @@ class Object:
         found, warnings = self._object.probability(math.prod(shape), sent[0], sent[1], sent[2], vs30)
         if warnings:
             _call.warn(warnings)
-        states = np.frombuffer(found).reshape(7, *shape) if shape else struct.unpack("7d", found)
+        states = np.frombuffer(found).reshape(7, *shape)
         return Probabilities(*states, warnings)  # type: ignore[call-arg]
 
     def rate(self, site: Site, years: float = 50.0) -> Rate:
@@ -296,6 +294,7 @@ def simulate_motions(
     solved = [each._object for each in ([objects] if isinstance(objects, Object) else objects)]
     told = _call.teller("simulate_motions", progress)
     sent = [record.tobytes() for record in records]
-    edp, overturned = _rockfrag.simulate_motions(sent, steps, solved, threads, told)
+    edp, overturned, warning = _rockfrag.simulate_motions(sent, steps, solved, threads, told)
+    _call.warn([warning] if warning else [])
     shape = (len(records),) if isinstance(objects, Object) else (len(records), len(solved))
     return Responses(np.frombuffer(edp).reshape(shape), np.frombuffer(overturned, dtype=bool).reshape(shape))

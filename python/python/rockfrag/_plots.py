@@ -35,13 +35,13 @@ def response(of: Response, on: Any = None) -> Any:
         at = [time for time, name in of.events if name == event]
         if at:
             theta = np.interp(at, of.time, of.theta_over_alpha)
-            rotation.plot(at, theta, marker, color=MARK, ms=7, label=f"{event} ({len(at)})" if event == "impact" else event)
+            rotation.plot(at, theta, marker, color=MARK, ms=7, label=event)
     if of.events:
         rotation.legend(frameon=False, fontsize="small", ncols=3, loc="upper right")
     if of.outcome == "overturning":
         # It falls on; what comes before shows only on this scale.
         rotation.set_ylim(-1.6, 1.6)
-    rotation.set_ylabel("rotation / slenderness")
+    rotation.set_ylabel("rotation / α")
     rotation.set_title(f"{of!r}", fontsize="medium", loc="left")
     ground.plot(of.time, of.ground_acceleration, color=GROUND, lw=0.8)
     ground.set_ylabel("ground, m/s²")

@@ -55,7 +55,7 @@ class Result:
         path = self._table().with_suffix(f".{name}.parquet")
         if not path.exists():
             raise ValueError(f"{self.stage} has no part '{name}'; expected one of {', '.join(self.parts)}")
-        return Result(self.stage, path, self.summary, self.warnings, self._folder)
+        return Result(self.stage, path, "", self.warnings, self._folder)
 
     @property
     def parts(self) -> list[str]:
