@@ -125,11 +125,10 @@ fn heading_rows(rows: &[RawRow], main: usize, first: Option<usize>, source: Sour
     let width = rows[main].cells.len().max(first.map_or(0, |first| rows[first].cells.len()));
     let mut gaps: Vec<bool> = (0..width).map(|at| rows[main].get(at).is_empty()).collect();
     let mut fills = |row: &RawRow| {
-        let mut filled = row.filled().filter(|(at, _)| gaps.get(*at) == Some(&true)).peekable();
-        let has_any = filled.peek().is_some();
-        let filled: Vec<usize> = filled.map(|(at, _)| at).collect();
-        filled.into_iter().for_each(|at| gaps[at] = false);
-        has_any
+        let filled = row.filled().map(|(at, _)| at).filter(|at| gaps.get(*at) == Some(&true));
+        let filled: Vec<usize> = filled.collect();
+        filled.iter().for_each(|at| gaps[*at] = false);
+        !filled.is_empty()
     };
     while let Some(row) = start.checked_sub(1).map(|above| &rows[above]) {
         let is_title = row.is_comment || row.alone(source).is_some() && !row.get(0).is_empty();

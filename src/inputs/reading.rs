@@ -36,29 +36,21 @@ pub struct ColumnReading {
     pub last: String,
 }
 
-#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, strum::Display)]
 #[serde(rename_all = "snake_case")]
+#[strum(serialize_all = "lowercase")]
 pub enum Meaning {
     /// A text of the file's own: tags, rooms, notes.
     Kept,
     #[default]
+    #[strum(to_string = "not understood")]
     NotUnderstood,
     /// Left out by the user.
     Ignored,
     /// By the name of its column or option: width.
     #[serde(untagged)]
+    #[strum(to_string = "{0}")]
     Known(String),
-}
-
-impl Meaning {
-    pub fn words(&self) -> &str {
-        match self {
-            Meaning::Known(name) => name,
-            Meaning::Kept => "kept",
-            Meaning::NotUnderstood => "not understood",
-            Meaning::Ignored => "ignored",
-        }
-    }
 }
 
 impl Reading {
@@ -68,24 +60,20 @@ impl Reading {
 
     /// Names the columns and remarks that are not understood, if there are any.
     pub fn gaps(&self) -> Option<String> {
-        let names = |is_told: &dyn Fn(&ColumnReading) -> bool| -> Vec<String> {
-            self.columns
-                .iter()
-                .filter(|column| is_told(column))
-                .map(|of| format!("'{}'", of.heading))
-                .collect()
+        let kind = |of: &ColumnReading| match of.meaning {
+            Meaning::NotUnderstood => Some("column"),
+            Meaning::Kept if of.filled > 0 && means(&of.heading, "remark") => Some("the texts of column"),
+            _ => None,
         };
-        let columns = names(&|column| column.meaning == Meaning::NotUnderstood);
-        let texts = |column: &ColumnReading| column.filled > 0 && means(&column.heading, "remark");
-        let texts = names(&|column| column.meaning == Meaning::Kept && texts(column));
-        let unread: Vec<String> = self.unread.iter().map(|remark| format!("'{remark}'")).collect();
-        let told = [("column", columns), ("the texts of column", texts), ("remark", unread)]
-            .into_iter()
-            .filter(|(_, names)| !names.is_empty());
-        let told = told.map(|(kind, names)| {
-            format!("{kind}{} {}", if names.len() == 1 { "" } else { "s" }, listed(&names, NAMED))
+        let columns = self.columns.iter().filter_map(|of| Some((kind(of)?, &of.heading)));
+        let all: Vec<_> = columns.chain(self.unread.iter().map(|remark| ("remark", remark))).collect();
+        let told = ["column", "the texts of column", "remark"].map(|kind| {
+            let names = all.iter().filter(|(of, _)| *of == kind).map(|(_, name)| format!("'{name}'"));
+            let names: Vec<String> = names.collect();
+            let plural = if names.len() == 1 { "" } else { "s" };
+            (!names.is_empty()).then(|| format!("{kind}{plural} {}", listed(&names, NAMED)))
         });
-        let told: Vec<String> = told.collect();
+        let told: Vec<String> = told.into_iter().flatten().collect();
         (!told.is_empty()).then(|| format!("Not understood in {}: {}.", self.name(), told.join("; ")))
     }
 }

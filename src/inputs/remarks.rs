@@ -5,6 +5,7 @@ use rockfrag_core::units::{Quantity, Unit};
 
 use super::Heading;
 use super::floors::{self, Storey};
+use super::grid::only;
 use super::layout::uncommented;
 use super::numbers::is_missing;
 use super::roles::holds;
@@ -43,18 +44,19 @@ pub fn unit_of_remark(note: &str) -> Option<Unit> {
     let note = normal(note).to_lowercase();
     let words: Vec<&str> =
         note.split(|sign: char| !sign.is_alphanumeric()).filter(|word| !word.is_empty()).collect();
+    let is_unit = |before: &str, word: &str| {
+        !before.ends_with(|sign: char| sign.is_ascii_digit())
+            && (word.len() > 2 || ["cm", "mm", "ft"].contains(&word) || before == "in" && word == "m")
+    };
     let behind = [""].into_iter().chain(words.iter().copied());
-    let units = behind.zip(&words).filter(|(before, word)| {
-        let is_number = before.ends_with(|sign: char| sign.is_ascii_digit());
-        !is_number
-            && (word.len() > 2 || ["cm", "mm", "ft"].contains(word) || *before == "in" && **word == "m")
-    });
-    let units =
-        units.filter_map(|(_, word)| Unit::parse(word).filter(|unit| unit.quantity == Quantity::Length));
-    let units: Vec<Unit> = units.collect();
-    let in_brackets = Heading::new(&note).unit.filter(|unit| unit.quantity == Quantity::Length);
+    let named = behind.zip(&words).filter(|(before, word)| is_unit(before, word));
+    let is_length = |unit: &Unit| unit.quantity == Quantity::Length;
+    let mut units = named.filter_map(|(_, word)| Unit::parse(word).filter(is_length)).peekable();
     // Several say what may stand in headings.
-    units.first().copied().or(in_brackets).filter(|first| units.iter().all(|unit| unit == first))
+    match units.peek() {
+        Some(_) => only(units),
+        None => Heading::new(&note).unit.filter(is_length),
+    }
 }
 
 /// Why an object with this cell under this heading of anchors is not free to rock, or not known to be.

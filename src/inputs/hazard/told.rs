@@ -7,6 +7,7 @@ use std::path::Path;
 use rockfrag_core::units::Unit;
 
 use super::columns::{Frequency, Imt, Phrase, Statistic};
+use crate::inputs::grid::only;
 use crate::inputs::words::{means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
 use crate::source::split_sheet;
@@ -108,9 +109,7 @@ impl Told {
 
     /// The unit that is named of values such as these, if it is one.
     pub fn unit(&self, is_of_values: impl Fn(Unit) -> bool) -> Option<Unit> {
-        let mut units = self.units.iter().filter(|unit| is_of_values(**unit));
-        let first = units.next()?;
-        units.all(|unit| unit == first).then_some(*first)
+        only(self.units.iter().copied().filter(|unit| is_of_values(*unit)))
     }
 
     /// Refuses headings in another unit, or probabilities in another time, than comments name.
