@@ -7,15 +7,14 @@ use std::path::Path;
 use csv::StringRecord;
 use rockfrag_core::plausibility::range_of_column;
 
-use super::decode::decode;
+use super::bytes::{decode, unpack_one};
 use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
 use super::heading::{Heading, number_with_unit};
 use super::layout::{Layout, RawRow, RowRole, layout};
 use super::numbers::{self, Evidence, Notation, is_missing, is_number};
-use super::reading::{ColumnReading, Meaning, Reading};
-use super::remarks::is_unread;
+use super::reader::{ColumnReading, Meaning, Reading};
+use super::roles::is_unread;
 use super::separated;
-use super::unpack::unpack_one;
 use super::words::{means, synonyms};
 use super::workbook::{self, Sheet};
 use crate::number::{counted, rounded};

@@ -9,8 +9,7 @@ use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::floors::{self, Building, Storey};
-use super::remarks::{held_by, is_on_anchors, is_on_floors, unit_of_remark};
-use super::roles::{Role, meaning};
+use super::roles::{Role, held_by, is_on_anchors, is_on_floors, meaning, unit_of_remark};
 use super::words::means;
 use super::{Grid, InputError, Meaning, Reader, Result, SECTION};
 use crate::number::rounded;
