@@ -70,20 +70,17 @@ pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
     let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
     let main = heading_row(above, &is_number_column, source);
-    let of_heading = main.map_or(0..0, |main| heading_rows(rows, main, first, source));
-    let mut headings: Vec<Heading> = match main {
-        Some(_) => joined_rows(&rows[of_heading.clone()], source),
-        None => vec![Heading::new(""); is_number_column.len()],
+    let of_heading = main.map(|main| heading_rows(rows, main, first, source));
+    let (mut headings, mut end) = match of_heading.clone() {
+        Some(range) => (joined_rows(&rows[range.clone()], source), range.end),
+        None => (vec![Heading::new(""); is_number_column.len()], first.unwrap_or(0)),
     };
-    let mut roles = vec![RowRole::Remark; rows.len()];
-    let mut end = if main.is_some() { of_heading.end } else { first.unwrap_or(0) };
     while let Some(units) = rows.get(end).filter(|row| main.is_some() && is_units(row)) {
         headings = with_units(&headings, units)?;
         end += 1;
     }
-    if main.is_some() {
-        roles[of_heading.start..end].fill(RowRole::Head);
-    }
+    let mut roles = vec![RowRole::Remark; rows.len()];
+    of_heading.into_iter().for_each(|range| roles[range.start..end].fill(RowRole::Head));
     // Between blanks, a comment above the numbers may have some too: dt 0.01.
     let start = first.filter(|_| source == Source::Blanks).unwrap_or(end);
     for (at, row) in rows.iter().enumerate().skip(end) {
