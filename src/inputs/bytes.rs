@@ -1,5 +1,5 @@
-//! From the bytes of a file to text: unpacks gzip and archives of zip and tar; decodes UTF-8, UTF-16, Shift JIS and
-//! Windows-1252.
+//! From the bytes of a file to text: unpacks gzip and archives of zip and tar; decodes UTF-8, UTF-16, Shift
+//! JIS and Windows-1252.
 
 use std::borrow::Cow;
 use std::io::{Cursor, Read};

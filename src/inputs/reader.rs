@@ -24,13 +24,13 @@ pub struct Rename {
     pub heading: String,
 }
 
-impl<'de> serde::Deserialize<'de> for Rename {
+impl<'de> Deserialize<'de> for Rename {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Rename, D::Error> {
-        <String as serde::Deserialize>::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
+        String::deserialize(deserializer)?.parse().map_err(serde::de::Error::custom)
     }
 }
 
-impl serde::Serialize for Rename {
+impl Serialize for Rename {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(&format_args!("{}={}", self.column, self.heading))
     }

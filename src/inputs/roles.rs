@@ -1,5 +1,5 @@
-//! What a list says: its columns by their headings, and its texts of units, anchors and floors, in a remark or under
-//! a heading of anchors.
+//! What a list says: its columns by their headings, and its texts of units, anchors and floors, in a remark
+//! or under a heading of anchors.
 
 use rockfrag_core::object::{Field, ObjectError};
 use rockfrag_core::units::{Quantity, Unit};
