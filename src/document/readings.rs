@@ -12,9 +12,8 @@ pub fn section(readings: &[&Reading]) -> Document {
 
 pub fn table(reading: &Reading) -> Table {
     let row = |ColumnReading { heading, meaning, unit, filled, first, last }: &ColumnReading| {
-        let unit = unit.as_deref().unwrap_or_default();
-        let [heading, meaning, unit, first, last] =
-            [heading, meaning.words(), unit, first, last].map(literal);
+        let (meaning, unit) = (meaning.to_string(), unit.as_deref().unwrap_or_default());
+        let [heading, meaning, unit, first, last] = [heading, &meaning, unit, first, last].map(literal);
         vec![heading, meaning, unit, count(*filled), first, last]
     };
     let others = reading.others.iter().map(|other| literal(other));

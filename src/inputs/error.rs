@@ -78,6 +78,10 @@ impl InputError {
         InputError::Value { line, field, found, expected }
     }
 
+    pub(super) fn missing(line: usize, field: &'static str, expected: &'static str) -> InputError {
+        InputError::Missing { line, field, expected }
+    }
+
     pub(super) fn damaged(error: impl ToString) -> InputError {
         InputError::Damaged(error.to_string())
     }

@@ -7,15 +7,14 @@ use std::path::Path;
 use csv::StringRecord;
 use rockfrag_core::plausibility::range_of_column;
 
-use super::decode::decode;
+use super::bytes::{decode, unpack_one};
 use super::error::{InputError, PERCENT, Result, THOUSANDS, expect_few_cells};
 use super::heading::{Heading, number_with_unit};
 use super::layout::{Layout, RawRow, RowRole, layout};
 use super::numbers::{self, Evidence, Notation, is_missing, is_number};
-use super::reading::{ColumnReading, Meaning, Reading};
-use super::remarks::is_unread;
+use super::reader::{ColumnReading, Meaning, Reading};
+use super::roles::is_unread;
 use super::separated;
-use super::unpack::unpack_one;
 use super::words::{means, synonyms};
 use super::workbook::{self, Sheet};
 use crate::number::{counted, rounded};
@@ -70,8 +69,8 @@ impl Grid {
     pub fn parse(bytes: &[u8], sheet: Option<&str>) -> Result<Grid> {
         let bytes = unpack_one(bytes.to_vec())?;
         if workbook::is_workbook(&bytes) {
-            let Sheet { first_line, rows, repeated, source, name } = workbook::read(&bytes, sheet)?;
-            let mut grid = Grid::new(rows_of_cells(first_line, rows.rows()), source, &repeated)?;
+            let Sheet { rows, repeated, source, name } = workbook::read(&bytes, sheet)?;
+            let mut grid = Grid::new(rows, source, &repeated)?;
             // As a comment: most names say nothing.
             grid.notes.push(format!("# {name}"));
             return Ok(grid);
@@ -83,7 +82,9 @@ impl Grid {
     /// Takes a table whose cells have points for decimals, as those of a workbook.
     pub fn from_cells(rows: &[Vec<String>]) -> Result<Grid> {
         expect_few_cells(rows.iter().map(Vec::len).sum())?;
-        Grid::new(rows_of_cells(1, rows.iter().map(Vec::as_slice)), Source::Xlsx, &HashSet::new())
+        let rows = (1..).zip(rows).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
+        let rows = rows.map(|(line, cells)| RawRow::new(line, cells.iter().collect(), None));
+        Grid::new(rows.collect(), Source::Xlsx, &HashSet::new())
     }
 
     fn new(rows: Vec<RawRow>, source: Source, repeated: &HashSet<(usize, usize)>) -> Result<Grid> {
@@ -135,14 +136,10 @@ impl Grid {
     /// Takes the units behind numbers off: that of the heading, or that of all numbers of a column.
     fn take_units(&mut self) {
         for (at, heading) in self.headings.iter_mut().enumerate() {
-            let mut cells = self.rows.iter().filter_map(|row| row.get(at).filter(|cell| !is_missing(cell)));
-            let first = cells.next().and_then(number_with_unit).map(|(_, unit)| unit);
-            if heading.unit.is_none() && !heading.is_scaled && first.is_some() {
-                let is_same = |cell: &str| {
-                    number_with_unit(cell)
-                        .is_some_and(|(number, unit)| Some(unit) == first && is_number(number))
-                };
-                heading.unit = first.filter(|_| cells.all(is_same));
+            if heading.unit.is_none() && !heading.is_scaled {
+                let cells = self.rows.iter().filter_map(|row| row.get(at).filter(|cell| !is_missing(cell)));
+                let parted = cells.map(|cell| number_with_unit(cell).filter(|(number, _)| is_number(number)));
+                heading.unit = only(parted.map(|parted| parted.map(|(_, unit)| unit))).flatten();
             }
         }
         if self.headings.iter().all(|heading| heading.unit.is_none()) {
@@ -298,17 +295,16 @@ impl Grid {
         let heading = &self.headings[at];
         let filled: Vec<usize> = self.rows().filter(|row| self.value(*row, at).is_some()).collect();
         let size = heading.unit.filter(|_| matches!(meaning, Meaning::Known(_))).map_or(1.0, |unit| unit.si);
-        let shown = |row: Option<&usize>| {
-            let number =
-                |row: usize| self.number(row, at).ok().map(|number| rounded(size * number).to_string());
-            row.map_or(String::new(), |row| number(*row).unwrap_or_else(|| self.cell(*row, at).to_string()))
+        let shown = |row: &usize| match self.number(*row, at) {
+            Ok(number) => rounded(size * number).to_string(),
+            Err(_) => self.cell(*row, at).to_string(),
         };
         ColumnReading {
             heading: self.name_of(at),
             unit: heading.unit.map(|unit| unit.name.to_string()),
             filled: filled.len(),
-            first: shown(filled.first()),
-            last: shown(filled.last()),
+            first: filled.first().map(shown).unwrap_or_default(),
+            last: filled.last().map(shown).unwrap_or_default(),
             meaning,
         }
     }
@@ -319,6 +315,12 @@ impl Grid {
             text => text.to_string(),
         }
     }
+}
+
+/// What all say alike, if there are any.
+pub(super) fn only<T: PartialEq>(mut all: impl Iterator<Item = T>) -> Option<T> {
+    let first = all.next()?;
+    all.all(|other| other == first).then_some(first)
 }
 
 /// The cells of a row, of which one under several headings is parted: 600x400x2000.
@@ -332,10 +334,4 @@ fn parted<'a>(cells: &'a StringRecord, parts: &[Vec<Heading>]) -> Vec<&'a str> {
         }
     });
     sides.flatten().collect()
-}
-
-/// Rows of a workbook, by their line.
-fn rows_of_cells<'a>(first: usize, rows: impl Iterator<Item = &'a [String]>) -> Vec<RawRow> {
-    let rows = (first..).zip(rows).filter(|(_, cells)| cells.iter().any(|cell| !cell.is_empty()));
-    rows.map(|(line, cells)| RawRow::new(line, cells.iter().collect(), None)).collect()
 }

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use arrow_array::{ArrayRef, Float64Array, StringArray};
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::motion::{Peaks, validate_medians};
-use rockfrag_core::units::Quantity;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::hazard::{Told, expect_understood, peak};
@@ -84,18 +83,13 @@ fn column(grid: &Grid, at: usize) -> Result<((String, ArrayRef), Meaning)> {
 
 /// The column that a heading names, and its unit in rad/s, rad or s.
 fn known(heading: &Heading) -> Result<Option<(&'static str, f64)>> {
-    const COLUMNS: [(&str, &str, Quantity); 4] = [
-        ("p", "p_rad_s", Quantity::AngularFrequency),
-        ("alpha", "alpha_rad", Quantity::Angle),
-        ("tp", "tp_s", Quantity::Time),
-        ("tm", "tm_s", Quantity::Time),
-    ];
-    let Some((_, column, quantity)) = COLUMNS.into_iter().find(|(name, ..)| *name == heading.name) else {
+    let columns = ["p_rad_s", "alpha_rad", "tp_s", "tm_s"].map(|column| (column, Heading::new(column)));
+    let Some((column, own)) = columns.into_iter().find(|(_, own)| own.name == heading.name) else {
         return Ok(means(&heading.name, "magnitude").then_some(("mw", 1.0)));
     };
-    match heading.unit {
+    match heading.unit.zip(own.unit) {
         None if !heading.is_scaled && !heading.is_percent => Ok(Some((column, 1.0))),
-        Some(unit) if unit.quantity == quantity => Ok(Some((column, unit.si))),
+        Some((unit, own)) if unit.quantity == own.quantity => Ok(Some((column, unit.si))),
         _ => Err(InputError::Units { heading: heading.text.clone(), unit: column.to_string() }),
     }
 }

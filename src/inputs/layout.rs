@@ -70,20 +70,17 @@ pub fn layout(rows: &[RawRow], source: Source) -> Result<Layout> {
     let first = rows.iter().position(|row| !row.is_comment && is_data(row, &is_number_column));
     let above = &rows[..first.map_or(rows.len(), |first| first + 1)];
     let main = heading_row(above, &is_number_column, source);
-    let of_heading = main.map_or(0..0, |main| heading_rows(rows, main, first, source));
-    let mut headings: Vec<Heading> = match main {
-        Some(_) => joined_rows(&rows[of_heading.clone()], source),
-        None => vec![Heading::new(""); is_number_column.len()],
+    let of_heading = main.map(|main| heading_rows(rows, main, first, source));
+    let (mut headings, mut end) = match of_heading.clone() {
+        Some(range) => (joined_rows(&rows[range.clone()], source), range.end),
+        None => (vec![Heading::new(""); is_number_column.len()], first.unwrap_or(0)),
     };
-    let mut roles = vec![RowRole::Remark; rows.len()];
-    let mut end = if main.is_some() { of_heading.end } else { first.unwrap_or(0) };
     while let Some(units) = rows.get(end).filter(|row| main.is_some() && is_units(row)) {
         headings = with_units(&headings, units)?;
         end += 1;
     }
-    if main.is_some() {
-        roles[of_heading.start..end].fill(RowRole::Head);
-    }
+    let mut roles = vec![RowRole::Remark; rows.len()];
+    of_heading.into_iter().for_each(|range| roles[range.start..end].fill(RowRole::Head));
     // Between blanks, a comment above the numbers may have some too: dt 0.01.
     let start = first.filter(|_| source == Source::Blanks).unwrap_or(end);
     for (at, row) in rows.iter().enumerate().skip(end) {
@@ -125,11 +122,10 @@ fn heading_rows(rows: &[RawRow], main: usize, first: Option<usize>, source: Sour
     let width = rows[main].cells.len().max(first.map_or(0, |first| rows[first].cells.len()));
     let mut gaps: Vec<bool> = (0..width).map(|at| rows[main].get(at).is_empty()).collect();
     let mut fills = |row: &RawRow| {
-        let mut filled = row.filled().filter(|(at, _)| gaps.get(*at) == Some(&true)).peekable();
-        let has_any = filled.peek().is_some();
-        let filled: Vec<usize> = filled.map(|(at, _)| at).collect();
-        filled.into_iter().for_each(|at| gaps[at] = false);
-        has_any
+        let filled = row.filled().map(|(at, _)| at).filter(|at| gaps.get(*at) == Some(&true));
+        let filled: Vec<usize> = filled.collect();
+        filled.iter().for_each(|at| gaps[*at] = false);
+        !filled.is_empty()
     };
     while let Some(row) = start.checked_sub(1).map(|above| &rows[above]) {
         let is_title = row.is_comment || row.alone(source).is_some() && !row.get(0).is_empty();

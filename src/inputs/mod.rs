@@ -1,7 +1,7 @@
 //! The files that people bring: from bytes to tables, and from tables to what they are about.
 
 mod about;
-mod decode;
+mod bytes;
 mod error;
 mod floors;
 mod grid;
@@ -12,23 +12,18 @@ mod layout;
 mod numbers;
 pub mod objects;
 mod reader;
-mod reading;
 pub mod records;
-mod remarks;
 mod roles;
 mod separated;
-mod unpack;
 pub mod words;
 mod workbook;
 
 pub use about::About;
-pub use decode::decode;
+pub use bytes::{Member, decode, unpack};
 pub use error::{InputError, Result};
 pub use floors::Building;
 pub use grid::{Grid, SECTION};
 pub use heading::Heading;
 pub use numbers::plain_number;
-pub use reader::{Reader, Rename};
-pub use reading::{ColumnReading, Meaning, Reading};
+pub use reader::{ColumnReading, Meaning, Reader, Reading, Rename};
 pub use roles::is_of_list;
-pub use unpack::{Member, unpack};

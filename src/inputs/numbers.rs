@@ -105,14 +105,13 @@ pub fn notations(columns: &[Evidence], source: Source) -> Vec<Notation> {
 impl Notation {
     /// Reads a number; 10 % is 0.1. Where nothing else tells, a cell may still be a number in one way alone.
     pub fn number(self, cell: &str) -> Option<f64> {
-        let both = || SIGNS.map(|decimal| read(cell, decimal));
-        self.decimal.map_or_else(
-            || match both() {
+        match self.decimal {
+            Some(decimal) => read(cell, decimal),
+            None => match SIGNS.map(|decimal| read(cell, decimal)) {
                 [Some(one), Some(other)] if one != other => None,
                 [one, other] => one.or(other),
             },
-            |decimal| read(cell, decimal),
-        )
+        }
     }
 }
 

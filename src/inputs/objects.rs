@@ -3,16 +3,15 @@
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
-use rockfrag_core::object::{Field, Object, ObjectError, Place, Wall};
+use rockfrag_core::object::{Field, Object, ObjectError, Place};
 use rockfrag_core::plausibility::validate_lengths;
 use rockfrag_core::units::{Quantity, Unit};
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::floors::{self, Building, Storey};
-use super::remarks::{held_by, is_on_anchors, is_on_floors, unit_of_remark};
-use super::roles::{Role, meaning};
+use super::roles::{Role, held_by, is_on_anchors, is_on_floors, meaning, unit_of_remark};
 use super::words::means;
-use super::{Grid, InputError, Meaning, Reader, Result};
+use super::{Grid, InputError, Meaning, Reader, Result, SECTION};
 use crate::number::rounded;
 
 /// Without one of these, in a cell that is not empty, there is no object.
@@ -110,16 +109,7 @@ impl List<'_> {
         if grid.lines.is_empty() {
             return Err(InputError::unexpected("no rows", "one per object"));
         }
-        let own =
-            grid.headings.iter().zip(&self.columns).filter(|(_, of)| matches!(of, Role::Name | Role::Kept));
-        let of_headings = own.filter_map(|(heading, _)| Some((&*heading.text, heading.unit?)));
-        let of_lengths = |(_, unit): &(&str, Unit)| unit.quantity == Quantity::Length;
-        let of_units =
-            self.column(Role::Unit).into_iter().flat_map(|at| grid.rows().map(move |row| (row, at)));
-        let of_units =
-            of_units.map(|(row, at)| grid.cell(row, at)).filter_map(|cell| Some((cell, Unit::parse(cell)?)));
-        let mut of_remarks = self.remarks().filter_map(|note| Some((note, unit_of_remark(note)?)));
-        let remarked = of_headings.chain(of_units).find(of_lengths).or_else(|| of_remarks.next());
+        let remarked = self.unit_elsewhere();
         for (at, (heading, column)) in grid.headings.iter().zip(&self.columns).enumerate() {
             if matches!(column, Role::Known(_)) && (heading.is_scaled || heading.is_percent) {
                 let found = format!("heading '{}'", heading.text);
@@ -150,21 +140,30 @@ impl List<'_> {
         Ok(())
     }
 
-    /// What stands above, between, below or beside the rows, and headings of names and the list's own columns.
-    fn remarks(&self) -> impl Iterator<Item = &str> {
-        let own = [Role::Name, Role::Kept];
-        let columns = (0..self.columns.len()).filter(move |at| own.contains(&self.columns[*at]));
-        let beside = columns.flat_map(move |at| {
-            let heading = &*self.grid.headings[at].text;
-            let cells = self.grid.rows().map(move |row| self.grid.cell(row, at));
-            let is_remark = heading.is_empty() || heading == "Section";
-            std::iter::once(heading).chain(cells.filter(move |_| is_remark))
-        });
-        self.grid.notes.iter().map(String::as_str).chain(beside)
+    /// A unit of lengths that names and the list's own columns have in their headings, a column of units in
+    /// its cells, or a remark: what stands above, between, below or beside the rows.
+    fn unit_elsewhere(&self) -> Option<(&str, Unit)> {
+        let grid = self.grid;
+        let cells = |at: usize| grid.rows().map(move |row| grid.cell(row, at));
+        let own = || self.all(Role::Name).chain(self.all(Role::Kept)).map(|at| (at, &grid.headings[at]));
+        let of_headings = own().filter_map(|(_, heading)| Some((&*heading.text, heading.unit?)));
+        let of_units = self.column(Role::Unit).into_iter().flat_map(cells);
+        let of_units = of_units.filter_map(|cell| Some((cell, Unit::parse(cell)?)));
+        let beside = own().filter(|(_, heading)| ["", SECTION].contains(&&*heading.text));
+        let beside = beside.flat_map(|(at, _)| cells(at));
+        let remarks =
+            grid.notes.iter().map(String::as_str).chain(own().map(|(_, own)| &*own.text)).chain(beside);
+        let of_remarks = remarks.filter_map(|note| Some((note, unit_of_remark(note)?)));
+        let mut all = of_headings.chain(of_units).chain(of_remarks);
+        all.find(|(_, unit)| unit.quantity == Quantity::Length)
+    }
+
+    fn all(&self, wanted: Role) -> impl Iterator<Item = usize> {
+        (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted)
     }
 
     fn column(&self, wanted: Role) -> Option<usize> {
-        self.columns.iter().position(|column| *column == wanted)
+        self.all(wanted).next()
     }
 
     /// What stands in a column, if it says anything.
@@ -235,8 +234,7 @@ impl List<'_> {
 
     /// The first column of tags: texts of which each is another.
     fn tags(&self) -> Option<usize> {
-        let mut kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
-        kept.find(|at| {
+        self.all(Role::Kept).find(|at| {
             let cells: HashSet<&str> = self.grid.rows().map(|row| self.grid.cell(row, *at)).collect();
             cells.len() == self.grid.lines.len() && !cells.contains("")
         })
@@ -252,8 +250,8 @@ impl List<'_> {
     }
 
     fn labels(&self, row: usize) -> Vec<(String, String)> {
-        let kept = (0..self.columns.len()).filter(|at| self.columns[*at] == Role::Kept);
-        kept.map(|at| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string())).collect()
+        let label = |at: usize| (self.grid.headings[at].text.clone(), self.grid.cell(row, at).to_string());
+        self.all(Role::Kept).map(label).collect()
     }
 
     fn name_of(&self, column: Option<usize>, row: usize) -> String {
@@ -273,63 +271,50 @@ impl List<'_> {
         fields.iter().any(|field| self.cell(row, Role::Known(*field)).is_some())
     }
 
-    /// Whether a cell says yes or no, or years, which it then sets.
-    fn set_words(&self, row: usize, at: usize, object: &mut Object) -> Result<bool, String> {
-        let (is, is_missing) =
-            (|meaning| means(self.grid.cell(row, at), meaning), self.grid.value(row, at).is_none());
-        match self.columns[at] {
-            Role::Known(Field::Wall) if is("free") => {}
-            Role::Known(Field::Wall) if is("yes") => object.place.wall = Some(Wall::Yes),
-            Role::Known(Field::FixedToPedestal) | Role::Years if is_missing => {}
-            Role::Known(Field::FixedToPedestal) if is("yes") || is("free") => {
-                object.place.fixed_to_pedestal = Some(is("yes"));
-            }
-            Role::Years => object.years = Some(self.years(row, at)?),
-            _ => return Ok(false),
-        }
-        Ok(true)
-    }
-
     fn object(&self, row: usize) -> Result<Object, String> {
-        let mut object = Object::default();
+        let is_round = self.cell(row, Role::Diameter).is_some();
+        let mut object = Object { is_round, ..Object::default() };
         for (at, column) in self.columns.iter().enumerate() {
-            let cell = self.grid.cell(row, at);
-            let is_round = self.cell(row, Role::Diameter).is_some();
+            let (cell, value, heading) =
+                (self.grid.cell(row, at), self.grid.value(row, at), &self.grid.headings[at].text);
             let fields: &[Field] = match column {
                 _ if cell.is_empty() => continue,
-                _ if self.set_words(row, at, &mut object)? => continue,
-                Role::Mass if self.is_on_pedestal(row) => &[Field::Mass],
-                Role::Known(Field::Width | Field::Depth)
-                    if is_round && self.grid.value(row, at).is_some() =>
-                {
+                Role::Years => {
+                    object.years = value.map(|_| self.years(row, at)).transpose()?;
+                    continue;
+                }
+                Role::Known(Field::Wall) if means(cell, "free") => continue,
+                Role::Known(Field::Width | Field::Depth) if is_round && value.is_some() => {
                     return Err("a diameter and a width or depth: which is that of its base?".to_string());
                 }
                 Role::Known(field) => std::slice::from_ref(field),
+                Role::Mass if self.is_on_pedestal(row) => &[Field::Mass],
                 Role::Diameter => &[Field::Width, Field::Depth],
                 Role::Count if self.grid.is_repeated(row, at) => {
                     return Err("a number in merged cells: write that of each object".to_string());
                 }
                 Role::Count => &[],
-                Role::Unclear if self.grid.value(row, at).is_some() => {
-                    let heading = &self.grid.headings[at].text;
+                Role::Unclear if value.is_some() => {
                     let expected = "rename it (--columns) or leave it out (--ignore)";
                     return Err(format!("column '{heading}' is not understood: {expected}"));
                 }
                 _ => continue,
             };
-            let is_needed = |field: &Field| !is_round && NEEDED.contains(field);
             if fields.iter().any(|field| field.entry().quantity.is_some()) && cell.ends_with('%') {
-                return Err(format!("'{cell}' under '{}'; expected no percent", self.grid.headings[at].text));
+                return Err(format!("'{cell}' under '{heading}'; expected no percent"));
             }
-            if self.grid.value(row, at).is_none() && !fields.iter().any(is_needed) {
+            let is_needed = !is_round && fields.iter().any(|field| NEEDED.contains(field));
+            if value.is_none() && !is_needed {
                 continue;
             }
-            object.is_round |= *column == Role::Diameter;
             let size = fields.first().map_or(Ok(1.0), |field| self.size(at, *field))?;
+            let is_answer = matches!(fields, [Field::Wall | Field::FixedToPedestal]);
             let text = match self.grid.number(row, at) {
+                _ if is_answer && means(cell, "yes") => "yes".to_string(),
+                _ if is_answer && means(cell, "free") => "no".to_string(),
                 Ok(number) => rounded(size * number).to_string(),
                 // Other fields may be words, or know what is expected.
-                Err(InputError::Cell { .. }) if !fields.iter().any(is_needed) => cell.to_string(),
+                Err(InputError::Cell { .. }) if !is_needed => cell.to_string(),
                 Err(error) => return Err(error.to_string()),
             };
             let names: Vec<&str> = fields.iter().map(|field| field.into()).collect();
@@ -402,8 +387,7 @@ impl List<'_> {
     /// texts say of anchors or floors.
     fn held(&self, row: usize) -> Option<ObjectError> {
         let cells = |wanted: Role| {
-            let columns = (0..self.columns.len()).filter(move |at| self.columns[*at] == wanted);
-            columns.map(move |at| (&*self.grid.headings[at].text, self.grid.cell(row, at)))
+            self.all(wanted).map(move |at| (&*self.grid.headings[at].text, self.grid.cell(row, at)))
         };
         let mut anchors = cells(Role::Held).filter(|(_, cell)| !cell.is_empty()).peekable();
         let says_nothing = anchors.peek().is_none();

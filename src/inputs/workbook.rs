@@ -1,28 +1,30 @@
 //! Sheets of workbooks: .xlsx, .xls and .ods.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::io::Cursor;
 
 use calamine::open_workbook_auto_from_rs;
-use calamine::{Cell, Data, DataType, Range, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
+use calamine::{Data, DataType, Dimensions, Reader, SheetVisible, Sheets, Xlsx, XlsxError};
 
 use rockfrag_core::units::Unit;
 use zip::ZipArchive;
 
 use super::error::{InputError, Result, expect_few_cells};
 use super::grid::Source;
+use super::layout::RawRow;
 use super::words::normal;
 use crate::number::rounded;
 use crate::source::guarded;
+
+/// The texts of the cells that have one, by row and column from 0.
+type Cells = BTreeMap<(u32, u32), String>;
 
 pub fn is_workbook(bytes: &[u8]) -> bool {
     bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"\xd0\xcf\x11\xe0")
 }
 
 pub struct Sheet {
-    /// Line of the first row, from 1.
-    pub first_line: usize,
-    pub rows: Range<String>,
+    pub rows: Vec<RawRow>,
     /// Lines and columns of cells that are merged over rows.
     pub repeated: HashSet<(usize, usize)>,
     pub source: Source,
@@ -39,61 +41,65 @@ pub fn read(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
 fn find(bytes: &[u8], name: Option<&str>) -> Result<Sheet> {
     let mut workbook = open_workbook_auto_from_rs(Cursor::new(bytes)).map_err(InputError::damaged)?;
     let all = workbook.sheets_metadata().to_vec();
-    let mut filled = Vec::new();
     let is_visible = |sheet: &calamine::Sheet| sheet.visible == SheetVisible::Visible;
+    let mut filled = Vec::new();
     for sheet in all.iter().filter(|sheet| name.map_or(is_visible(sheet), |name| sheet.name == name)) {
         let cells = filled_cells(&mut workbook, &sheet.name)?;
         if !cells.is_empty() {
             filled.push((sheet.name.clone(), cells));
         }
     }
-    match &mut filled[..] {
-        [(name, cells)] => {
-            let mut cells = std::mem::take(cells);
-            if let Sheets::Ods(_) = workbook {
-                expect_no_merged_rows(bytes)?;
-            }
-            let repeated = repeat_merged(&mut workbook, name, &mut cells)?;
-            let rows = in_range(cells)?;
-            let (line, column) = rows.start().unwrap_or_default();
-            let repeated = repeated.into_iter().map(|(row, at)| (row as usize + 1, (at - column) as usize));
-            let source = if matches!(workbook, Sheets::Xlsx(_)) { Source::Xlsx } else { Source::Workbook };
-            let (first_line, repeated, name) = (line as usize + 1, repeated.collect(), name.clone());
-            Ok(Sheet { first_line, rows, repeated, source, name })
+    let (sheet, mut cells) = match filled.len() {
+        1 => filled.remove(0),
+        0 if name.is_none() => return Err(InputError::unexpected("an empty workbook", "a table")),
+        0 => return Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
+        _ => return Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
+    };
+    let (mut source, mut merged) = (Source::Workbook, Vec::new());
+    match &mut workbook {
+        Sheets::Xlsx(workbook) => {
+            source = Source::Xlsx;
+            merged = workbook.merge_cells_by_sheet_name(&sheet).map_err(InputError::damaged)?;
         }
-        [] if name.is_none() => Err(InputError::unexpected("an empty workbook", "a table")),
-        [] => Err(InputError::Sheets { found: all.into_iter().map(|sheet| sheet.name).collect() }),
-        _ => Err(InputError::Sheets { found: filled.into_iter().map(|(name, _)| name).collect() }),
+        Sheets::Ods(_) => expect_no_merged_rows(bytes)?,
+        _ => {}
     }
+    let repeated = repeat_merged(&merged, &mut cells)?;
+    let (rows, left) = in_rows(&cells)?;
+    let repeated = repeated.into_iter().map(|(row, at)| (row as usize + 1, (at - left) as usize));
+    Ok(Sheet { rows, repeated: repeated.collect(), source, name: sheet })
 }
 
 /// Repeats merged cells; returns the places of those that are merged over rows.
-fn repeat_merged(
-    workbook: &mut Sheets<Cursor<&[u8]>>,
-    sheet: &str,
-    cells: &mut Vec<Cell<String>>,
-) -> Result<Vec<(u32, u32)>> {
-    let Sheets::Xlsx(workbook) = workbook else { return Ok(Vec::new()) };
-    let last = cells.iter().fold((0, 0), |(row, column), cell| {
-        let at = cell.get_position();
-        (at.0.max(row), at.1.max(column))
-    });
-    let (mut repeated, known) = (Vec::new(), cells.len());
-    let texts: HashMap<(u32, u32), usize> = (0..known).map(|at| (cells[at].get_position(), at)).collect();
-    for merged in workbook.merge_cells_by_sheet_name(sheet).map_err(InputError::damaged)? {
-        let Some(&from) = texts.get(&merged.start) else { continue };
-        let text = cells[from].get_value().clone();
-        for row in merged.start.0..=merged.end.0.min(last.0) {
-            for column in merged.start.1..=merged.end.1.min(last.1) {
-                if (row, column) != merged.start && !texts.contains_key(&(row, column)) {
-                    cells.push(Cell::new((row, column), text.clone()));
-                    expect_few_cells(cells.len())?;
-                }
-                repeated.extend((merged.end.0 > merged.start.0).then_some((row, column)));
+fn repeat_merged(merged: &[Dimensions], cells: &mut Cells) -> Result<Vec<(u32, u32)>> {
+    let last = cells.keys().fold((0, 0), |last: (u32, u32), at| (last.0.max(at.0), last.1.max(at.1)));
+    let (mut repeated, mut count) = (Vec::new(), cells.len());
+    for Dimensions { start, end } in merged {
+        let Some(text) = cells.get(start).cloned() else { continue };
+        for row in start.0..=end.0.min(last.0) {
+            for column in start.1..=end.1.min(last.1) {
+                count += 1;
+                expect_few_cells(count)?;
+                cells.entry((row, column)).or_insert_with(|| text.clone());
+                repeated.extend((end.0 > start.0).then_some((row, column)));
             }
         }
     }
     Ok(repeated)
+}
+
+/// The rows that have any cell, and the first column.
+fn in_rows(cells: &Cells) -> Result<(Vec<RawRow>, u32)> {
+    let columns = cells.keys().map(|(_, column)| *column);
+    let (left, right) = columns.fold((u32::MAX, 0), |(left, right), at| (left.min(at), right.max(at)));
+    let rows: BTreeSet<u32> = cells.keys().map(|(row, _)| *row).collect();
+    let height = rows.last().zip(rows.first()).map_or(0, |(last, first)| last - first + 1);
+    expect_few_cells((height as usize).saturating_mul((right - left) as usize + 1))?;
+    let row = |row: u32| {
+        let texts = (left..=right).map(|column| cells.get(&(row, column)).map_or("", String::as_str));
+        RawRow::new(row as usize + 1, texts.collect(), None)
+    };
+    Ok((rows.into_iter().map(row).collect(), left))
 }
 
 /// Refuses cells of an .ods that are merged over rows: its reader leaves all but the first empty.
@@ -121,8 +127,8 @@ fn expect_few_announced(bytes: &[u8]) -> Result<()> {
     Ok(())
 }
 
-fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
-    let mut cells = Vec::new();
+fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Cells> {
+    let mut cells = Cells::new();
     match workbook {
         Sheets::Xlsx(workbook) => cells = cells_of_xlsx(workbook, sheet)?,
         Sheets::Xlsb(_) => return Err(InputError::NoTable { found: "a binary workbook" }),
@@ -132,21 +138,21 @@ fn filled_cells(workbook: &mut Sheets<Cursor<&[u8]>>, sheet: &str) -> Result<Vec
             let (top, left) = range.start().unwrap_or_default();
             for (row, column, value) in range.cells() {
                 let place = (top + row as u32, left + column as u32);
-                cells.push(Cell::new(place, text(value, formulas.get_value(place))));
+                cells.insert(place, text(value, formulas.get_value(place)));
                 expect_few_cells(cells.len())?;
             }
         }
     }
-    cells.retain(|cell| !cell.get_value().is_empty());
+    cells.retain(|_, text| !text.is_empty());
     Ok(cells)
 }
 
 /// Reads a sheet twice, for formulas and values: the places of the former hold for values too, of which the
 /// reader skips those that it does not know, such as the error #SPILL!.
-fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<Cell<String>>> {
+fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Cells> {
     let mut formulas = Vec::new();
     match workbook.worksheet_cells_reader(sheet) {
-        Err(XlsxError::NotAWorksheet(_)) => return Ok(Vec::new()),
+        Err(XlsxError::NotAWorksheet(_)) => return Ok(Cells::new()),
         Err(error) => return Err(InputError::damaged(error)),
         Ok(mut reader) => {
             while let Some(formula) = reader.next_formula().map_err(InputError::damaged)? {
@@ -174,19 +180,9 @@ fn cells_of_xlsx(workbook: &mut Xlsx<Cursor<&[u8]>>, sheet: &str) -> Result<Vec<
             Some(number) if is_unit => format!("{number} {}", behind.trim()),
             _ => text(&value, Some(formula.get_value())),
         };
-        Ok(Cell::new(formula.get_position(), shown))
+        Ok((formula.get_position(), shown))
     });
     cells.collect()
-}
-
-fn in_range(mut cells: Vec<Cell<String>>) -> Result<Range<String>> {
-    cells.sort_by_key(Cell::get_position);
-    let columns = || cells.iter().map(|cell| cell.get_position().1 as usize);
-    let width = columns().max().unwrap_or_default() + 1 - columns().min().unwrap_or_default();
-    let [first, last] =
-        [cells.first(), cells.last()].map(|cell| cell.map_or(0, |cell| cell.get_position().0));
-    expect_few_cells((last as usize + 1 - first as usize).saturating_mul(width))?;
-    Ok(Range::from_sparse(cells))
 }
 
 /// The text of a cell; that of its formula where no program has computed the value.
@@ -196,8 +192,6 @@ fn text(cell: &Data, formula: Option<&String>) -> String {
         _ if cell.is_empty() || cell.get_string() == Some("") => {
             formula.map_or(String::new(), |formula| format!("={formula}"))
         }
-        Data::Bool(true) => "yes".to_string(),
-        Data::Bool(false) => "no".to_string(),
         Data::DateTime(date) if date.is_datetime() => {
             let (year, month, day, ..) = date.to_ymd_hms_milli();
             format!("{year}-{month:02}-{day:02}")

@@ -7,6 +7,7 @@ use std::path::Path;
 use rockfrag_core::units::Unit;
 
 use super::columns::{Frequency, Imt, Phrase, Statistic};
+use crate::inputs::grid::only;
 use crate::inputs::words::{means, says_vertical};
 use crate::inputs::{Grid, Heading, InputError, Meaning, Result};
 use crate::source::split_sheet;
@@ -108,26 +109,22 @@ impl Told {
 
     /// The unit that is named of values such as these, if it is one.
     pub fn unit(&self, is_of_values: impl Fn(Unit) -> bool) -> Option<Unit> {
-        let mut units = self.units.iter().filter(|unit| is_of_values(**unit));
-        let first = units.next()?;
-        units.all(|unit| unit == first).then_some(*first)
+        only(self.units.iter().copied().filter(|unit| is_of_values(*unit)))
     }
 
     /// Refuses headings in another unit, or probabilities in another time, than comments name.
     pub fn expect_same(&self, headings: &[Heading]) -> Result<()> {
         let differs = |heading: &&Heading| {
-            let own = heading.unit.map(|own| (own, self.unit(|unit| unit.quantity == own.quantity)));
-            own.is_some_and(|(own, told)| told.is_some_and(|told| told != own))
+            let unit = heading.unit.and_then(|own| self.unit(|unit| unit.quantity == own.quantity));
+            let is_other_time = match (Phrase::new(&heading.text).frequency, self.years) {
+                (Some(Frequency::ProbabilityIn(years)), Some(told)) => years != told,
+                _ => false,
+            };
+            unit.is_some() && unit != heading.unit || is_other_time
         };
-        let of_times = |heading: &&Heading| match (Phrase::new(&heading.text).frequency, self.years) {
-            (Some(Frequency::ProbabilityIn(years)), Some(told)) => years != told,
-            _ => false,
-        };
-        let mut headings = headings.iter().filter(|heading| differs(heading) || of_times(heading));
-        headings.next().map_or(Ok(()), |heading| {
-            let found = format!("heading '{}' against a comment", heading.text);
-            Err(InputError::unexpected(found, "the same unit, or the same years, in both"))
-        })
+        let other = headings.iter().find(differs).map(|heading| format!("heading '{}'", heading.text));
+        let expected = "the same unit, or the same years, in both";
+        other.map_or(Ok(()), |other| Err(InputError::unexpected(other + " against a comment", expected)))
     }
 
     /// The measure of a curve whose headings name this one, or none; an acceleration of which nothing is said

@@ -308,15 +308,12 @@ fn is_component(heading: &Heading) -> bool {
 fn clock_s(cell: &str) -> Option<f64> {
     let behind = |sign: char| !sign.is_ascii_digit() && !":.,".contains(sign);
     let time = cell.split(behind).find(|part| part.contains(':'))?.replace(',', ".");
-    let parts: Vec<&str> = time.split(':').collect();
-    let (hours, minutes, seconds) = match parts[..] {
-        [minutes, seconds] => ("0", minutes, seconds.to_string()),
-        [hours, minutes, seconds] => (hours, minutes, seconds.to_string()),
-        [hours, minutes, seconds, thousandths] => (hours, minutes, format!("{seconds}.{thousandths}")),
-        _ => return None,
+    // Behind a third colon are thousandths.
+    let time = match time.match_indices(':').nth(2) {
+        Some((at, _)) => format!("{}.{}", &time[..at], &time[at + 1..]),
+        None => time,
     };
-    let whole = 60.0 * hours.parse::<f64>().ok()? + minutes.parse::<f64>().ok()?;
-    Some(60.0 * whole + seconds.parse::<f64>().ok()?)
+    time.split(':').try_fold(0.0, |sum, part| Some(60.0 * sum + part.parse::<f64>().ok()?))
 }
 
 /// Reads the unit in a comment that speaks of units, acceleration, or what is none.

@@ -13,7 +13,7 @@ const ACCELERATION: &str = "one of acceleration, such as g or cm/s2, or --unit, 
 /// Returns the time step (s) that a file says on a line, else the given one, which must not contradict it.
 pub fn time_step(found: Option<f64>, options: &ReadOptions, line: usize) -> Result<f64> {
     let expected = "one in the header, a column of times, a comment such as dt = 0.005 s, or --dt 0.005";
-    let missing = InputError::Missing { line, field: "time step", expected };
+    let missing = InputError::missing(line, "time step", expected);
     let dt_s = found.or(options.dt_s).ok_or(missing)?;
     if dt_s <= 0.0 {
         return Err(InputError::value(line, "time step", &format!("{dt_s} s"), "one above 0 s"));
@@ -41,7 +41,7 @@ pub fn unit_of(Field { line, text }: Field, options: &ReadOptions) -> Result<Uni
 
 /// Returns the unit of acceleration that a file says on a line, else the given one, which must not contradict.
 pub fn unit(found: Option<Unit>, options: &ReadOptions, line: usize) -> Result<Unit> {
-    let missing = InputError::Missing { line, field: "unit", expected: ACCELERATION };
+    let missing = InputError::missing(line, "unit", ACCELERATION);
     let unit = found.or(options.unit).ok_or(missing)?;
     if unit.quantity != Quantity::Acceleration {
         return Err(InputError::value(line, "unit", unit.name, ACCELERATION));

@@ -1,10 +1,8 @@
 //! File formats of records: from the bytes of a file to accelerations.
 
-mod cosmos;
+mod agencies;
 mod csv;
 mod header;
-mod keyed;
-mod peer_at2;
 
 use std::borrow::Cow;
 
@@ -57,17 +55,17 @@ pub fn read_records(bytes: &[u8], options: &ReadOptions) -> Result<Vec<RecordedM
     let recognises = |format: &RecordFormat| match format {
         RecordFormat::Cosmos => header::after(first, "(format v").is_some(),
         RecordFormat::Knet => first.starts_with("Origin Time"),
-        RecordFormat::Esm => keyed::is_esm(&lines),
-        RecordFormat::PeerAt2 => peer_at2::line_of_counts(&lines).is_some(),
+        RecordFormat::Esm => agencies::is_esm(&lines),
+        RecordFormat::PeerAt2 => agencies::line_of_counts(&lines).is_some(),
         RecordFormat::Csv => true,
     };
     let recognised = RecordFormat::VARIANTS.iter().copied().find(recognises);
     let format = options.format.or(recognised).unwrap_or(RecordFormat::Csv);
     let mut motions = match format {
-        RecordFormat::Cosmos => cosmos::parse(&lines, options)?,
-        RecordFormat::Knet => vec![keyed::knet(&lines, options)?],
-        RecordFormat::Esm => vec![keyed::esm(&lines, options)?],
-        RecordFormat::PeerAt2 => vec![peer_at2::parse(&lines, options)?],
+        RecordFormat::Cosmos => agencies::cosmos(&lines, options)?,
+        RecordFormat::Knet => vec![agencies::knet(&lines, options)?],
+        RecordFormat::Esm => vec![agencies::esm(&lines, options)?],
+        RecordFormat::PeerAt2 => vec![agencies::at2(&lines, options)?],
         RecordFormat::Csv => csv::parse(bytes, options)?,
     };
     let in_borehole = ["borehole", "downhole"];
