@@ -1,7 +1,7 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
-use rockfrag_core::paper::{self, Claim, Support};
+use rockfrag_core::paper::{self, Claim};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -16,7 +16,7 @@ use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
-use crate::figures::common::{called, name, name_of, order, rocked, scaled_label, short_label, title};
+use crate::figures::common::{called, name, name_of, order, rocked, scaled_label, short_label};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
@@ -24,9 +24,8 @@ use crate::stages::shared::fits::CurveLine;
 use crate::table::responses::{CapacityFitRow, OutcomeWord, ResponseRow};
 use crate::table::rows::{self, by};
 
-/// The most motions and structures of a table of demand.
-const MOST_MOTIONS: usize = 30;
-const MOST_STRUCTURES: usize = 8;
+/// The most responses of a table of demand.
+const MOST_RESPONSES: usize = 100;
 /// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, which has no others, of the paper and of other responses.
@@ -202,7 +201,8 @@ fn cell(row: &Value, field: &str) -> String {
         }
         Value::String(name) if field == "structure" => name_of(name),
         Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
-        Value::String(text) => text.replace('_', " "),
+        Value::String(text) if text.contains(' ') => literal(text),
+        Value::String(word) => word.replace('_', " "),
         _ => String::new(),
     }
 }
@@ -257,37 +257,33 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     Ok(Table::new(&heads, rows).explained("Motions that rock and overturn each structure, with 95 % limits"))
 }
 
-/// What came of each structure under each motion, a table for each file of few motions.
+/// What came of each structure under each motion, a table for each file of few responses.
 fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let structures = by(&tables.groups, |cases| &cases.structure.name);
-    let names: Vec<String> = structures.iter().map(|its| called(&its[0].structure)).collect();
-    let heads = ["motion", "PGA, g", "PGV, m/s"].into_iter().chain(names.iter().map(String::as_str));
-    let heads: Vec<&str> = heads.collect();
-    let mut all = Vec::new();
-    let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_MOTIONS * MOST_STRUCTURES;
-    for item in tables.of(Kind::Responses).filter(is_short) {
+    let names = structures.iter().map(|its| called(&its[0].structure));
+    let heads = ["motion", "PGA, g", "PGV, m/s"].map(str::to_string).into_iter().chain(names);
+    let heads: Vec<String> = heads.collect();
+    let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_RESPONSES;
+    let of_file = |item: &Item| {
         let responses: Vec<ResponseRow> = rows::read(&item.path)?;
-        let motions = by(&responses, |row| (&row.motion_id, row.pga_m_s2));
-        if motions.len() > MOST_MOTIONS || structures.len() > MOST_STRUCTURES {
-            continue;
-        }
         let line = |its: &Vec<&ResponseRow>| {
-            let mut row = vec![literal(&number::name(&its[0].motion_id))];
-            row.extend([its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak)));
-            row.extend(structures.iter().map(|of| {
+            let peaks = [its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak));
+            let demands = structures.iter().map(|of| {
                 let response = its.iter().find(|row| row.structure == of[0].structure.name);
                 response.map_or(String::new(), |of| match of.outcome {
                     OutcomeWord::NoRocking => "does not rock".to_string(),
                     OutcomeWord::SafeRocking => of.edp.map_or(String::new(), |edp| TWO_DIGITS.one(edp)),
                     OutcomeWord::Overturned => "overturns".to_string(),
                 })
-            }));
-            row
+            });
+            let motion = literal(&number::name(&its[0].motion_id));
+            std::iter::once(motion).chain(peaks).chain(demands).collect()
         };
-        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*";
-        all.push(Table::new(&heads, motions.iter().map(line).collect()).explained(caption));
-    }
-    Ok(all)
+        let rows = by(&responses, |row| (&row.motion_id, row.pga_m_s2)).iter().map(line).collect();
+        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*".to_string();
+        Ok(Table { caption, heads: heads.clone(), rows, ..Table::default() })
+    };
+    tables.of(Kind::Responses).filter(is_short).map(of_file).collect()
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
@@ -330,38 +326,18 @@ fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     Ok(all)
 }
 
-/// The claims of the paper: a table each, with a column for each suite and structure.
+/// The claims of the paper, a table each, where this run is compared with it.
 fn claims(tables: &Tables) -> Vec<Table> {
     let all = if tables.compared.is_empty() { Vec::new() } else { paper::claims() };
-    let shown = |row: &Claim| {
-        let [mean, low, high] =
-            [row.mean, row.low, row.high].map(|value| minus(number::significant(value, 3)));
-        let mark = match row.support {
-            Some(Support::Undecided) => " ?",
-            Some(Support::Against) => " \u{2717}",
-            Some(Support::For) | None => "",
-        };
-        format!("{mean} ({low} to {high}){mark}")
-    };
-    let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
-    let of_claim = |rows: Vec<&Claim>| {
-        let columns: Vec<String> =
-            by(rows.iter().copied(), column).iter().map(|its| column(its[0])).collect();
-        let line = |its: Vec<&Claim>| {
-            let of = |head: &String| its.iter().find(|row| column(row) == *head).map(|row| shown(row));
-            let claimed = its.iter().map(|row| row.claimed.as_str()).max().unwrap_or_default();
-            let cells = columns.iter().map(|head| of(head).unwrap_or_default());
-            [&its[0].quantity, claimed].map(literal).into_iter().chain(cells).collect()
-        };
-        let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
+    let of_claim = |rows: &Vec<&Claim>| {
         let Claim { claim, verdict, figure, .. } = rows[0];
-        let heads = ["number", "claimed"].into_iter().chain(columns.iter().map(String::as_str));
-        Table::new(&heads.collect::<Vec<_>>(), lines).explained(&format!(
+        let caption = format!(
             "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more seed; \
-             by those of the mean, ? is undecided and \u{2717} against the claim."
-        ))
+             support by those of the mean."
+        );
+        table(&caption, rows, "quantity structure suite claimed mean low high support")
     };
-    by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
+    by(&all, |row| &row.claim).iter().map(of_claim).collect()
 }
 
 fn files(tables: &Tables) -> Table {
