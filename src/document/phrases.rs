@@ -14,7 +14,7 @@ use rockfrag_core::warning::{UNNAMED, Warning};
 
 use crate::answer::{Answer, ObjectColumns, USUAL_YEARS, UncertaintyColumns, over_all};
 use crate::chart::text::literal;
-use crate::number::{self, PERCENT, count, fixed, period, plain, significant};
+use crate::number::{self, PERCENT, count, fixed, listed, period, plain, significant};
 
 impl ObjectColumns {
     /// The name; none where it was given without one.
@@ -210,19 +210,11 @@ impl Answer {
     }
 
     /// What of its rate lies beyond a curve that ends too early.
-    fn beyond_the_curve(&self, hazard: Option<&Hazard>, whose: &str) -> Option<String> {
+    fn beyond_the_curve(&self, whose: &str) -> Option<String> {
         let is_early = self.uncertainty.warnings().contains(&Warning::HazardEndsEarly);
         let share = PERCENT.one(self.rates.share_extrapolated.filter(|_| is_early)?);
-        let end = match hazard {
-            Some(Hazard::Curve(PeakHazard { peak, curve, .. })) => {
-                let [_, (last, rate)] = curve.ends();
-                let years = count((1.0 / rate).round() as usize);
-                format!(", {} (once in {years} years)", with_unit(*peak, last))
-            }
-            _ => String::new(),
-        };
         Some(format!(
-            "{share} of the rate{whose} lies beyond the end of the hazard curve{end}, continued by its last slope: \
+            "{share} of the rate{whose} lies beyond the end of the hazard curve, continued by its last slope: \
              the limits range from none of these motions overturning it to all of them."
         ))
     }
@@ -253,24 +245,22 @@ impl Answer {
     /// The largest part of the error, and what would narrow it.
     fn largest_uncertainty(&self, whose: &str) -> Option<String> {
         let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
-        let [name, remedy, options] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
-        Some(format!("Largest uncertainty{whose}: {name}, narrowed by {remedy} ({options})."))
+        let [name, remedy] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
+        Some(format!("Largest uncertainty{whose}: {name}, narrowed by {remedy}."))
     }
 }
 
-/// What is uncertain, what narrows it, and the options for that.
-pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
+/// What is uncertain, and what narrows it.
+pub fn of_source(source: UncertaintySource) -> [&'static str; 2] {
     match source {
-        UncertaintySource::Fit => ["fragility", "records of the site", "--fits"],
-        UncertaintySource::Magnitude => ["magnitude", "a disaggregation", "--magnitude"],
-        UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
-        UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
-        UncertaintySource::Wall => ["rebound from the wall", "its measured value", "--wall"],
-        UncertaintySource::Object => {
-            ["centre of mass", "weighing or a tilt test", "--centre-height-sd, --alpha-sd"]
-        }
-        UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
-        UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],
+        UncertaintySource::Fit => ["fragility", "records of the site"],
+        UncertaintySource::Magnitude => ["magnitude", "a disaggregation"],
+        UncertaintySource::Velocity => ["PGV", "its value or hazard"],
+        UncertaintySource::Eta => ["restitution", "a rocking test"],
+        UncertaintySource::Wall => ["rebound from the wall", "its measured value"],
+        UncertaintySource::Object => ["centre of mass", "weighing or a tilt test"],
+        UncertaintySource::Floor => ["building", "its measured period"],
+        UncertaintySource::Hazard => ["hazard", "a study of the site"],
     }
 }
 
@@ -298,92 +288,66 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 
 /// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
-    let worst = all[0];
-    let (whose, alone) = match all {
-        [one] => (String::new(), Some(one)),
-        _ => (format!(" of {}", worst.object.called()), None),
-    };
-    let friction = |one: &&Answer| Some(fixed(one.object.friction_needed()?, 2));
-    let valid = match alone.map(friction) {
+    let (worst, is_alone) = (all[0], all.len() == 1);
+    let whose = if is_alone { String::new() } else { format!(" of {}", worst.object.called()) };
+    let valid = match worst.object.friction_needed().filter(|_| is_alone) {
+        Some(friction) => format!("Valid if friction is well above {}; else it slides.", fixed(friction, 2)),
+        None if is_alone => String::new(),
         None => "With less friction than it needs, an object slides instead of rocking.".to_string(),
-        Some(None) => String::new(),
-        Some(Some(friction)) => format!("Valid if friction is well above {friction}; else it slides."),
     };
-    let upstairs = || all.iter().map(|answer| &answer.object).filter(|object| object.floor_level.is_some());
-    let in_percent = upstairs().any(|object| object.floor.is_none() && object.floor_level < Some(1.0));
-    let percent = if in_percent { "; 60 % up is at 60 % of its height" } else { "" };
-    let building = upstairs().next().map(|_| format!(" The building is taken as linear{percent}."));
-    let valid = valid + &building.unwrap_or_default();
-    let lognormal = alone.and_then(|one| {
-        let Lognormal { beta, largest_error, .. } = one.fragility.overturning;
-        let [beta, error] = [beta?, largest_error?].map(|value| significant(value, 2));
-        Some(format!("Overturning is lognormal with beta {beta}, within {error}."))
-    });
-    let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
-    let beyond = worst.beyond_the_curve(hazard, &whose);
+    let is_upstairs = all.iter().any(|answer| answer.object.floor_level.is_some());
+    let building = if is_upstairs { "The building is taken as linear." } else { "" }.to_string();
+    let models = Vec::from_iter(BTreeSet::from_iter(all.iter().flat_map(|answer| &answer.object.model)));
+    let models = literal(&listed(&models, 1));
+    let model = (!models.is_empty()).then(|| format!("By {models}{}.", usual_motion(hazard)));
     let uncertain = [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all)];
-    let others = [lognormal, beyond, model, Some(valid.trim().to_string())];
+    let others = [worst.beyond_the_curve(&whose), model, Some(valid), Some(building)];
     uncertain.into_iter().chain(others).flatten().filter(|line| !line.is_empty()).collect()
 }
 
-/// What else answers rest on, a line each: for who signs them.
-pub fn assumptions(all: &[&Answer]) -> Vec<String> {
-    let objects = || all.iter().map(|answer| &answer.object);
-    let span = |value: fn(&ObjectColumns) -> Option<f64>, digits: usize| {
-        let values = || objects().filter_map(value);
-        let [low, high] =
-            [values().reduce(f64::min)?, values().reduce(f64::max)?].map(|of| significant(of, digits));
-        Some(if low == high { low } else { format!("{low} to {high}") })
-    };
-    let said = |is_so: bool, words: &str| is_so.then(|| words.to_string());
-    let site =
-        said(all[0].rates.years.is_some(), "The hazard is that of the ground for which its curve was made.");
-    let building = span(|object| object.floor_period_s, 2).map(|periods| {
-        format!(
-            "Buildings: linear, first period {periods} s, as given or by ASCE 7 for 3.5 m a storey; torsion and \
-             yielding are not counted."
-        )
-    });
-    let both = said(
-        objects().any(|object| object.depth_m.is_some()),
-        "What has a width and a depth may fall in both directions: the rates add up.",
-    );
-    let eta = span(|object| object.eta, 2).map(|eta| {
-        format!(
-            "Restitution η, the angular velocity after an impact over that before: {eta}, with its scatter; by \
-             Housner's formula for a solid block where none is given."
-        )
-    });
-    let limit = objects().find_map(|object| object.limit_state).unwrap_or(LIMIT_STATE);
-    let too_far = span(|object| object.alpha_rad.map(f64::to_degrees), 2).map(|degrees| {
-        format!(
-            "Rocks too far: beyond {} of the slenderness α, the angle at which it tips ({degrees}°).",
-            PERCENT.one(limit)
-        )
-    });
-    let fixed = [
+type Value = fn(&Answer) -> Option<f64>;
+
+/// What else answers rest on, for who signs them: each where a value of one of them is known, with the span of
+/// these values for @.
+const ASSUMPTIONS: [(Value, &str); 7] = [
+    (|of| of.rates.years, "The hazard is that of the ground for which its curve was made."),
+    (
+        |of| of.object.floor_period_s,
+        "Buildings: linear, first period @ s, as given or by ASCE 7 for 3.5 m a storey; torsion and yielding \
+         are not counted.",
+    ),
+    (|of| of.object.depth_m, "What has a width and a depth may fall in both directions: the rates add up."),
+    (
+        |of| of.object.eta,
+        "Restitution η, the angular velocity after an impact over that before: @, with its scatter; by \
+         Housner's formula for a solid block where none is given.",
+    ),
+    (
+        |of| of.object.alpha_rad.map(f64::to_degrees),
+        "Rocks too far: beyond {limit} of the slenderness α, the angle at which it tips (@°).",
+    ),
+    (
+        |_| Some(0.0),
         "Rigid objects that stand free and do not slide. Not counted: edges rounded below (fall a third to half \
          as often), bases round in plan (1.2 to 1.3 times), soft floors or thin bottoms (1.2 to 1.5 times), \
          vertical motion (.99 to 1.08 times).",
+    ),
+    (
+        |_| Some(0.0),
         "FEMA P-58 has more falls: its median velocities for unanchored components are 1.7 to 2.0 times lower. \
          Under records scaled to them 5 to 10 % of such blocks overturn, not half.",
-    ];
-    let all = [site, building, both, eta, too_far].into_iter().flatten();
-    all.chain(fixed.map(str::to_string)).collect()
-}
+    ),
+];
 
-/// What predicts; of objects that are fitted each to its own responses, what is the same.
-fn model_of_all(all: &[&Answer]) -> Option<String> {
-    let models: BTreeSet<&str> = all.iter().filter_map(|answer| answer.object.model.as_deref()).collect();
-    let (first, object) = (models.first()?, &all[0].object);
-    let surface = object.motions.filter(|_| models.len() > 1 && first.contains("surface"));
-    Some(surface.map_or_else(
-        || literal(object.model.as_deref().unwrap_or(first)),
-        |kind| {
-            let motions = kind.description();
-            format!("rockfrag's universal surface, calibrated to the simulated responses ({motions})")
-        },
-    ))
+pub fn assumptions(all: &[&Answer]) -> Vec<String> {
+    let limit = all.iter().find_map(|answer| answer.object.limit_state).unwrap_or(LIMIT_STATE);
+    let said = ASSUMPTIONS.iter().filter_map(|(value, words)| {
+        let values = || all.iter().filter_map(|answer| value(answer));
+        let ends = [values().reduce(f64::min)?, values().reduce(f64::max)?].map(|end| significant(end, 2));
+        let span = if ends[0] == ends[1] { ends[0].clone() } else { ends.join(" to ") };
+        Some(words.replace('@', &span).replace("{limit}", &PERCENT.one(limit)))
+    });
+    said.collect()
 }
 
 /// The motions that codes design for and consider, by the curve: who knows the site sees a wrong unit or

@@ -257,10 +257,7 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     let most = (Z_95 * parts.first()?.1).exp();
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
     let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
-    let names = Axis::names(parts.iter().map(|(source, _)| {
-        let [name, remedy, _] = of_source(*source);
-        format!("{name}: {remedy}")
-    }));
+    let names = Axis::names(parts.iter().map(|(source, _)| of_source(*source).join(": ")));
     let factors = || parts.iter().map(|(_, sd)| (Z_95 * sd).exp());
     let marks = factors().zip(0_i32..).map(|(x, row)| Mark { low: 1.0, high: x, ..Mark::new(x, row.into()) });
     let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
