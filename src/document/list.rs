@@ -21,14 +21,13 @@ pub fn document(table: &AnswerTable) -> Document {
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = Answer::when_of_all(&table.rows);
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
-    let what = match over {
-        Some(_) => "what motions overturn".to_string(),
-        None => format!("how likely to overturn {when}"),
-    };
     let all = pieces(&table.rows);
     let several = table.rows.iter().any(|answer| answer.file != worst.file);
     let of_what = if several { "Objects of several files".to_string() } else { counted(all, "object") };
-    let title = format!("{of_what}: {what}");
+    let title = match over {
+        Some(_) => format!("{of_what}: what motions overturn"),
+        None => format!("{of_what}: how likely to overturn {when}"),
+    };
     // What is changed comes first.
     let (news, others): (Vec<&Answer>, Vec<&Answer>) = table.rows.iter().partition(|answer| answer.is_news());
     let (rows, same) = table_of(&[&news[..], &others].concat(), &when);
@@ -38,21 +37,11 @@ pub fn document(table: &AnswerTable) -> Document {
     }
     let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.floor_level.is_some()));
     let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
-    let kinds = Some(table.rows.len()).filter(|rows| *rows < all);
-    let kinds = kinds.map_or(String::new(), |rows| format!(" in {}", counted(rows, "row")));
-    let place = format!("{free} of {}{kinds} assessed ({upstairs} above the ground)", count(all));
+    let place = format!("{free} of {} assessed ({upstairs} above the ground)", count(all));
     let whose = format!(" of {}", worst.object.called());
     let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
     let lead = [Some(worst_of(table)), target, not_assessed(&table.rows)];
     let sections = table.details.iter().filter_map(|detail| section(table, detail));
-    let of_place = by_place(&answered, "floor", |answer| answer.object.short_place());
-    let of_section =
-        by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
-    // Sections may be the floors.
-    let rows_of = |table: &Option<Table>| table.as_ref().map_or(Vec::new(), |table| table.rows.clone());
-    let numbers = |table| rows_of(table).iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>();
-    let is_other = worst.before.is_none() && numbers(&of_section) != numbers(&of_place);
-    let overview = [remedies(table, &when), of_place, of_section.filter(|_| is_other)];
     Document {
         title,
         place: if several { String::new() } else { place } + &table.conditions(),
@@ -60,7 +49,11 @@ pub fn document(table: &AnswerTable) -> Document {
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: overview.into_iter().flatten().filter(|_| !several).collect(),
+        overview: [remedies(table, &when), by_place(&answered)]
+            .into_iter()
+            .flatten()
+            .filter(|_| !several)
+            .collect(),
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
@@ -86,8 +79,11 @@ fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
     Some(document)
 }
 
-/// How many objects of each of several places are above the target, and are expected to overturn.
-fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
+/// How many objects of each section of the list, or else of each floor, are above the target, and are expected to
+/// overturn.
+fn by_place(answers: &[&Answer]) -> Option<Table> {
+    let head = answers[0].label(SECTION).map_or("floor", |_| "section");
+    let place = |answer: &Answer| answer.label(SECTION).map_or_else(|| answer.object.short_place(), literal);
     let mut groups = by(answers.iter().copied(), place);
     groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
     let target = answers[0].rates.target;
@@ -128,12 +124,13 @@ fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
     let how_often = worst.how_often();
+    let is_whole = table.rows.iter().all(Answer::is_answered);
     match how_often.strip_prefix("overturns ") {
         _ if table.rows.len() == 1 => format!("{name} {how_often}."),
-        Some(often) if table.rows.iter().all(Answer::is_answered) => {
-            format!("{name} is the most likely to overturn: {often}.")
+        Some(often) => {
+            let of = if is_whole { "" } else { " of those assessed" };
+            format!("{name} is the most likely to overturn{of}: {often}.")
         }
-        Some(often) => format!("{name} is the most likely to overturn of those assessed: {often}."),
         None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None => "Nothing overturns.".to_string(),
     }
@@ -164,10 +161,7 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let answered = answers.iter().copied().filter(|answer| answer.is_answered());
         let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
-        // Alone it has a number of its own.
-        let any = answers[0].list.at_least_one.value.filter(|_| files.len() > 1);
-        let any = any.map_or(String::new(), |p| format!("; at least one with {}", PERCENT.one(p)));
-        let words = format!("of {all} expected to overturn {when}{limits}{any}{file}");
+        let words = format!("of {all} expected to overturn {when}{limits}{file}");
         let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
         tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
     }
