@@ -1,8 +1,6 @@
 //! Probabilities at each intensity of a table, Parquet or CSV: peaks by their headings, structures by their
 //! columns.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use anyhow::{bail, ensure};
@@ -11,7 +9,7 @@ use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GroundMotion, MotionProbabilities, unusual_motions};
 use rockfrag_core::motion::{Peaks, validate_medians};
-use rockfrag_core::object::{Object, Restitution, RockingObject};
+use rockfrag_core::object::{Object, Restitution};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::Warning;
 
@@ -55,26 +53,24 @@ pub fn evaluate(
         let both = format!("column {column} and options of a structure; leave out the one or the other");
         bail!(UsageError::because(format!("{}: {both}", path.display())));
     }
-    let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     // A typical motion shows a wrong unit.
     let given_peaks: Vec<Peaks> = peaks.iter().flatten().copied().flatten().collect();
     validate_medians(given_peaks.iter().copied()).map_err(|problem| TableError::table(path, problem))?;
-    let mut known = HashMap::new();
-    let mut evaluated = Vec::new();
     let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
+    let mut evaluated = Vec::new();
     for (batch, peaks) in batches.iter().zip(&peaks) {
-        let names = vec!["structure".into(); batch.rows.num_rows()];
-        let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
-        for structure in &structures {
-            if let Entry::Vacant(entry) = known.entry(bits(structure)) {
-                let object = Object::with_parameters(structure, Restitution::Number(structure.eta));
-                entry.insert(models.rocking_object(&object.at(&place))?);
+        let rows = batch.rows.num_rows();
+        let objects = match given.first() {
+            Some(object) => vec![object.clone(); rows],
+            None => {
+                let structures = batch.structures(&vec!["structure".into(); rows])?;
+                let object = |of: &Structure| Object::with_parameters(of, Restitution::Number(of.eta));
+                structures.iter().map(|of| object(of).at(&place)).collect()
             }
-        }
-        let rocking_object = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
-        evaluated.push(with_probabilities(batch, peaks, rocking_object, call.magnitude, context)?);
-        bar.advance(batch.rows.num_rows())?;
+        };
+        evaluated.push(with_probabilities(batch, peaks, &objects, (models, call.magnitude), context)?);
+        bar.advance(rows)?;
     }
     let without = peaks.iter().flatten().filter(|peaks| peaks.is_none()).count();
     let without = if without > 0 { format!(", {without} {NO_PEAKS}") } else { String::new() };
@@ -87,27 +83,23 @@ const NO_PEAKS: &str = "without PGA or PGV";
 /// Columns that say what a row is about.
 const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
 
-fn bits(structure: &Structure) -> [u64; 3] {
-    [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits)
-}
-
 /// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
-fn with_probabilities<'a>(
+fn with_probabilities(
     batch: &Batch,
     given: &[Option<Peaks>],
-    rocking_object: impl Fn(usize) -> &'a (RockingObject, Vec<Warning>) + Sync,
-    magnitude: Option<f64>,
+    objects: &[Object],
+    (models, magnitude): (&Models, Option<f64>),
     context: &Context,
 ) -> anyhow::Result<RecordBatch> {
     let mw = batch.numbers("mw")?;
     let evaluate = |row: usize| {
         let Some(given) = given[row] else {
             let warnings = Some(NO_PEAKS.to_string());
-            return (TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() });
+            return Ok((TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() }));
         };
-        let (rocking_object, about_model) = rocking_object(row);
+        let (rocking_object, mut warnings) = models.rocking_object(&objects[row])?;
         let peaks = given.clamp_to_recorded();
-        let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
+        warnings.extend(rocking_object.warnings(peaks));
         warnings.extend((peaks != given).then_some(Warning::AtRim));
         let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
@@ -116,11 +108,13 @@ fn with_probabilities<'a>(
             vs30_m_s: None,
         };
         warnings.extend(unusual_motions(motion.mw, None));
-        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(rocking_object);
-        let tree = TreeColumns::new(&motion, rocking_object, states);
-        (tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks))
+        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking_object);
+        let tree = TreeColumns::new(&motion, &rocking_object, states);
+        Ok((tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks)))
     };
-    let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
+    let rows: Vec<_> = (0..objects.len()).into_par_iter().map(evaluate).collect();
+    // The first error in the order of the rows, whichever thread meets one first.
+    let rows: Vec<_> = rows.into_iter().collect::<anyhow::Result<_>>()?;
     let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
     let warned =
         uncertainties.iter().enumerate().filter(|(row, of)| given[*row].is_some() && of.warnings.is_some());
