@@ -388,7 +388,7 @@ pub fn variants_beside(path: &Path) -> PathBuf {
 /// Adds a row of a file: of a fragility it is a point, that over PGA beside the same object over PGV.
 fn add(answers: &mut Vec<Answer>, row: Answer, point: &CurveRow) {
     let Some(over) = row.fragility.over else { return answers.push(row) };
-    let row = Answer { p: StateColumns::default(), ..row };
+    let row = Answer { p: StateColumns::default(), tree: TreeColumns::default(), ..row };
     let before = answers.last_mut().filter(|before| before.object.structure == row.object.structure);
     let answer = match before.and_then(|before| Some((before.fragility.over?, before))) {
         Some((peak, before)) if peak == over => before,
