@@ -58,7 +58,7 @@ pub struct Document {
     /// Warnings that change a decision.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
-    /// Folded, each with a title, facts, tables and figures: method, tests, files.
+    /// Folded, each with a title, facts, tables and figures: tests, files.
     pub sections: Vec<Document>,
 }
 

@@ -1,4 +1,4 @@
-//! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
+//! The page: one sentence, one table, one figure; then further figures; folded, tests and files.
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
 use rockfrag_core::paper::{self, Claim};
@@ -40,22 +40,6 @@ const MOST_GROUPS: usize = 24;
 const MOST_PANELS: usize = 4;
 const MOST_COLOURS: usize = 6;
 
-/// What is said of each stage that made a table.
-const METHOD: &str = "\
-synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), stochastic high \
-frequencies, or both.
-import-motions: Ground motions are records, one component each.
-simulate: Each structure is a rigid block or frame that rocks without sliding and loses velocity at each \
-impact (Eqs. 4 to 6). Its demand is the largest rotation over *α* (Eq. 7).
-fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions and \
-one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
-Dynamics 44, 2015\u{2013}2033).
-fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to \
-24), or the universal surface over peak acceleration and velocity, calibrated to the responses.
-ida: Each motion is scaled until it overturns the structure; these intensities are taken as lognormal.
-validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
-evaluate: Probabilities are those of the model; annual rates integrate them over the hazard of the site.";
-
 /// What two words mean.
 const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
                       velocity after an impact over that before.";
@@ -78,9 +62,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     tables.made().for_each(|made| joined.join(&made.warnings));
     let (warnings, folded) = if is_client { (vec![], joined.lines()) } else { (joined.lines(), vec![]) };
     head.notes = [tables.left_out.clone(), head.notes, warnings].concat();
-    let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
-    let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
     head.tables.extend(demands(tables)?);
     let mut tests = tests(tables)?;
     if head.tables.is_empty() {
@@ -90,7 +71,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     let mut sections = vec![
         Document { tables: claims(tables), ..section("The paper's claims") },
         Document { figures: if is_client { Vec::new() } else { more }, ..section("More figures") },
-        Document { facts: method.collect(), ..section("Method") },
         Document { facts: folded, tables: tests, ..section("Tests and fits") },
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
@@ -109,7 +89,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let rest = groups.split_off(groups.len().min(MOST_GROUPS));
     if !rest.is_empty() {
         let names = rest.into_iter().map(name).collect::<Vec<_>>().join("; ");
-        tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
+        tables.left_out.push(format!("Not drawn, beyond the first {MOST_GROUPS}: {names}."));
     }
     groups.sort_by_key(|cases| order(cases));
     let (motions, fits) = (tables.motions()?, &tables.fits);

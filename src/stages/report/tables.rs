@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use rockfrag_core::fragility::{Calibration, Cases, Event, Measure, Predictors};
 use rockfrag_core::paper;
-use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
 use strum::{EnumProperty, VariantArray};
 
@@ -103,7 +102,7 @@ impl Item {
 #[derive(Default)]
 pub struct Tables {
     pub items: Vec<Item>,
-    /// Responses by suite and structure, those that overturn most first.
+    /// Responses by suite and structure.
     pub groups: Vec<Cases>,
     pub fits: Fits,
     pub compared: Vec<Comparison>,
@@ -144,10 +143,6 @@ impl Tables {
         let groups = tables.of(Kind::Responses).map(read).collect::<anyhow::Result<Vec<_>>>()?;
         tables.groups = groups.concat();
         tables.compared = tables.rows(Kind::Paper)?;
-        // The paper has the frame first.
-        if tables.groups.len() > 2 && tables.compared.is_empty() {
-            tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
-        }
         for item in &tables.items {
             match item.kind {
                 Kind::Answers => tables.answers.push(AnswerTable::read(&item.path, item.made.as_ref())?),
@@ -235,11 +230,6 @@ impl Tables {
         let some = parts().nth(middle).or_else(|| parts().next()).map(|part| part()).transpose()?;
         Ok(some.into_iter().flatten().next().map_or(Vec::new(), |some| some.motions))
     }
-}
-
-/// The share of the motions that overturn.
-fn overturning(cases: &Cases) -> f64 {
-    cases.count(Outcome::Overturned) as f64 / cases.all.len().max(1) as f64
 }
 
 /// A file; of a folder its tables, and folders of partitions in it.
