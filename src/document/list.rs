@@ -35,25 +35,24 @@ pub fn document(table: &AnswerTable) -> Document {
         let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![rows], ..Document::default() };
     }
-    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.floor_level.is_some()));
-    let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
-    let place = format!("{free} of {} assessed ({upstairs} above the ground)", count(all));
+    let assessed = count(pieces(answered.iter().copied()));
     let whose = format!(" of {}", worst.object.called());
     let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
     let lead = [Some(worst_of(table)), target, not_assessed(&table.rows)];
     let sections = table.details.iter().filter_map(|detail| section(table, detail));
+    let of_section = |answer: &Answer| literal(answer.label(SECTION).unwrap_or_default());
+    let floors = by_place(&answered, "floor", |answer| answer.object.short_place());
+    let mut places = Vec::from_iter(floors.into_iter().chain(by_place(&answered, "section", of_section)));
+    // Sections may be the floors.
+    places.dedup_by_key(|table| table.rows.iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>());
     Document {
         title,
-        place: if several { String::new() } else { place } + &table.conditions(),
+        place: format!("{assessed} of {} assessed{}", count(all), table.conditions()),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: [remedies(table, &when), by_place(&answered)]
-            .into_iter()
-            .flatten()
-            .filter(|_| !several)
-            .collect(),
+        overview: remedies(table, &when).into_iter().chain(places).filter(|_| !several).collect(),
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
@@ -79,11 +78,8 @@ fn section(table: &AnswerTable, detail: &Detail) -> Option<Document> {
     Some(document)
 }
 
-/// How many objects of each section of the list, or else of each floor, are above the target, and are expected to
-/// overturn.
-fn by_place(answers: &[&Answer]) -> Option<Table> {
-    let head = answers[0].label(SECTION).map_or("floor", |_| "section");
-    let place = |answer: &Answer| answer.label(SECTION).map_or_else(|| answer.object.short_place(), literal);
+/// How many objects of each of several places are above the target, and are expected to overturn.
+fn by_place(answers: &[&Answer], head: &str, place: fn(&Answer) -> String) -> Option<Table> {
     let mut groups = by(answers.iter().copied(), place);
     groups.sort_by(|a, b| number_of(b).total_cmp(&number_of(a)));
     let target = answers[0].rates.target;

@@ -80,12 +80,6 @@ impl ObjectColumns {
         }
     }
 
-    /// The name, and the floor if it stands on one.
-    pub fn name_and_floor(&self) -> String {
-        let floor = self.floor_level.map_or(String::new(), |_| format!(", {}", self.short_place()));
-        self.called() + &floor
-    }
-
     pub fn title(&self) -> String {
         let size = self.name().map_or(String::new(), |_| format!(", {}", self.size()));
         self.called() + &size
@@ -178,13 +172,12 @@ impl Answer {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
         let Some(base) = self.base(|side| side.value) else {
-            let anchored = "Anchored, it would not rock.";
-            return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
+            return Some(format!(
+                "No base{whose} is found for {target}: {why_none}. Anchored, it would not rock."
+            ));
         };
-        let by_limit = match self.base(|side| side.high) {
-            Some(base) => format!("{base} by the upper limit"),
-            None => format!("none by the upper limit: {why_none}"),
-        };
+        let by_limit = self.base(|side| side.high).map(|base| format!("{base} by the upper limit"));
+        let by_limit = by_limit.unwrap_or_else(|| format!("none by the upper limit: {why_none}"));
         Some(format!("Base{whose} for {target}: {base}; {by_limit}."))
     }
 
@@ -262,11 +255,6 @@ pub fn of_source(source: UncertaintySource) -> [&'static str; 2] {
         UncertaintySource::Floor => ["building", "its measured period"],
         UncertaintySource::Hazard => ["hazard", "a study of the site"],
     }
-}
-
-fn with_unit(peak: Peak, intensity: f64) -> String {
-    let (_, unit, symbol) = peak.name_and_unit();
-    format!("{} {symbol}", significant(intensity / unit, 3))
 }
 
 /// An intensity with its unit; one beyond all records without a number.
@@ -354,14 +342,15 @@ pub fn assumptions(all: &[&Answer]) -> Vec<String> {
 /// column by them.
 fn usual_motion(hazard: Option<&Hazard>) -> String {
     let Some(Hazard::Curve(PeakHazard { peak, curve, .. })) = hazard else { return String::new() };
+    let (what, unit, symbol) = peak.name_and_unit();
     let once_in = |years: f64| {
         let intensity = curve.intensity(1.0 / years);
         let years = count((1.0 / curve.exceedance(intensity)).round() as usize);
-        format!("{} once in {years} years", with_unit(*peak, intensity))
+        format!("{} {symbol} once in {years} years", significant(intensity / unit, 3))
     };
     let mut usual = USUAL_YEARS.map(once_in).to_vec();
     usual.dedup();
-    format!("; {} {}", peak.name_and_unit().0, usual.join(", "))
+    format!("; {what} {}", usual.join(", "))
 }
 
 fn limits_cover(all: &[&Answer]) -> Option<String> {

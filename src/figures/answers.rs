@@ -57,7 +57,7 @@ fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
     let over = answers.iter().find_map(|answer| answer.fragility.over)?;
     let layer = |(number, answer): (usize, &&Answer)| {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
-        Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks)
+        Layer::line(&answer.object.called(), Ink::Data(number), marks)
     };
     let layers: Vec<Layer> = answers.iter().take(CURVES).enumerate().map(layer).collect();
     let (what, averaged) = (over.name_and_unit().0, averaged(over));
