@@ -130,10 +130,8 @@ impl Answer {
             Some(format!("a median {} of {half}{limits}", fragility.over?.name_and_unit().0))
         });
         let halves: Vec<String> = halves.collect();
-        if !halves.is_empty() {
-            return format!("overturns at {}", halves.join(", or at "));
-        }
         match (self.rates.years, self.rates.overturning_per_year) {
+            _ if !halves.is_empty() => format!("overturns at {}", halves.join(", or at ")),
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
             (None, _) if self.p.p_rocking <= Some(0.0) => self.uplift(),
             (None, _) => format!("overturns with a probability of {} {when}{limits}", PERCENT.value(p)),
@@ -278,19 +276,22 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
     let (worst, is_alone) = (all[0], all.len() == 1);
     let whose = if is_alone { String::new() } else { format!(" of {}", worst.object.called()) };
-    let valid = match worst.object.friction_needed().filter(|_| is_alone) {
-        Some(friction) => format!("Valid if friction is well above {}; else it slides.", fixed(friction, 2)),
-        None if is_alone => String::new(),
-        None => "With less friction than it needs, an object slides instead of rocking.".to_string(),
+    let valid = match (is_alone, worst.object.friction_needed()) {
+        (false, _) => {
+            Some("With less friction than it needs, an object slides instead of rocking.".to_string())
+        }
+        (true, least) => {
+            least.map(|it| format!("Valid if friction is well above {}; else it slides.", fixed(it, 2)))
+        }
     };
     let is_upstairs = all.iter().any(|answer| answer.object.floor_level.is_some());
-    let building = if is_upstairs { "The building is taken as linear." } else { "" }.to_string();
+    let building = is_upstairs.then(|| "The building is taken as linear.".to_string());
     let models = Vec::from_iter(BTreeSet::from_iter(all.iter().flat_map(|answer| &answer.object.model)));
     let models = literal(&listed(&models, 1));
     let model = (!models.is_empty()).then(|| format!("By {models}{}.", usual_motion(hazard)));
     let uncertain = [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all)];
-    let others = [worst.beyond_the_curve(&whose), model, Some(valid), Some(building)];
-    uncertain.into_iter().chain(others).flatten().filter(|line| !line.is_empty()).collect()
+    let others = [worst.beyond_the_curve(&whose), model, valid, building];
+    uncertain.into_iter().chain(others).flatten().collect()
 }
 
 type Value = fn(&Answer) -> Option<f64>;
