@@ -159,19 +159,19 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
         let words = format!("of {all} expected to overturn {when}{limits}{file}");
         let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
-        tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
+        tiles.push(Tile { number: TWO_DIGITS.one(expected), words });
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
         let limits = PERCENT.limits(any, "95 % limits ");
         let words =
             format!("probability that at least one overturns{limits}; one earthquake may overturn many");
-        tiles.extend(any.value.or(any.high).map(|_| Tile::new(PERCENT.value(any), words)));
+        tiles.extend(any.value.or(any.high).map(|_| Tile { number: PERCENT.value(any), words }));
         tiles.extend(table.rows[0].rates.target.map(|target| {
             let above = pieces(table.rows.iter().filter(|answer| answer.severity() > target));
             let all = pieces(table.rows.iter().filter(|answer| answer.is_answered()));
             let words = format!("of {} above the target of {}", counted(all, "object"), PERCENT.one(target));
-            Tile::new(count(above), words)
+            Tile { number: count(above), words }
         }));
     }
     tiles

@@ -108,12 +108,6 @@ struct Column<'a> {
     cells: Vec<&'a str>,
 }
 
-impl Tile {
-    pub fn new(number: impl Into<String>, words: impl Into<String>) -> Tile {
-        Tile { number: number.into(), words: words.into() }
-    }
-}
-
 impl Table {
     pub fn new(heads: &[&str], rows: Vec<Vec<String>>) -> Table {
         let heads = heads.iter().map(|head| head.to_string()).collect();

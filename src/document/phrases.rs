@@ -296,8 +296,8 @@ pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
 
 type Value = fn(&Answer) -> Option<f64>;
 
-/// What else answers rest on, for who signs them: each where a value of one of them is known, with the span of
-/// these values for @.
+/// What else answers rest on, for who signs them: each where a value of one of them is known, with the span
+/// of these values for @.
 const ASSUMPTIONS: [(Value, &str); 7] = [
     (|of| of.rates.years, "The hazard is that of the ground for which its curve was made."),
     (

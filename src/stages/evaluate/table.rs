@@ -78,8 +78,8 @@ const NO_PEAKS: &str = "without PGA or PGV";
 /// Columns that say what a row is about.
 const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
 
-/// The rows with their probabilities, by the structure that is given or each by its own, and the warnings about
-/// them; columns of the input stand behind, but for those of the same name.
+/// The rows with their probabilities, by the structure that is given or each by its own, and the warnings
+/// about them; columns of the input stand behind, but for those of the same name.
 fn with_probabilities(
     batch: &Batch,
     peaks: &[Option<Peaks>],

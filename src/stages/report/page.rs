@@ -62,16 +62,13 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     tables.made().for_each(|made| joined.join(&made.warnings));
     let (warnings, folded) = if is_client { (vec![], joined.lines()) } else { (joined.lines(), vec![]) };
     head.notes = [tables.left_out.clone(), head.notes, warnings].concat();
-    head.tables.extend(demands(tables)?);
-    let mut tests = tests(tables)?;
-    if head.tables.is_empty() {
-        head.tables.extend(tests.drain(..tests.len().min(1)));
-    }
+    head.tables.extend([vec![outcomes(tables)?], demands(tables)?].concat());
+    head.tables.retain(|table| !table.rows.is_empty());
     let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
         Document { tables: claims(tables), ..section("The paper's claims") },
         Document { figures: if is_client { Vec::new() } else { more }, ..section("More figures") },
-        Document { facts: folded, tables: tests, ..section("Tests and fits") },
+        Document { facts: folded, tables: tests(tables)?, ..section("Tests and fits") },
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
     sections.retain(Document::has_content);
@@ -276,34 +273,31 @@ fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, I
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let mut all = vec![outcomes(tables)?];
+    let all = [
+        table(
+            "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
+            tables.compared.iter().filter(|number| number.plane.is_none()),
+            "quantity structure suite published mean z ours ours_z",
+        ),
+        table(
+            "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
+            tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
+            "structure suite im_x im_y theta beta lambda n_events largest_difference status",
+        ),
+        table(
+            "Planes of the demand",
+            tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar),
+            "structure suite range_low range_high r2 beta n largest_difference status",
+        ),
+        table(
+            "Validation: events observed and expected",
+            tables.rows::<Validation>(Kind::Validation)?,
+            "structure suite event model n observed expected expected_error log_score calibration_slope",
+        ),
+    ];
     // A client's page has no curves and planes of the paper.
-    if tables.answers.is_empty() {
-        all.extend([
-            table(
-                "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
-                tables.compared.iter().filter(|number| number.plane.is_none()),
-                "quantity structure suite published mean z ours ours_z",
-            ),
-            table(
-                "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
-                tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
-                "structure suite im_x im_y theta beta lambda n_events largest_difference status",
-            ),
-            table(
-                "Planes of the demand",
-                tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar),
-                "structure suite range_low range_high r2 beta n largest_difference status",
-            ),
-        ]);
-    }
-    all.push(table(
-        "Validation: events observed and expected",
-        tables.rows::<Validation>(Kind::Validation)?,
-        "structure suite event model n observed expected expected_error log_score calibration_slope",
-    ));
-    all.retain(|table| !table.rows.is_empty());
-    Ok(all)
+    let of_paper = if tables.answers.is_empty() { 0 } else { 3 };
+    Ok(all.into_iter().skip(of_paper).filter(|table| !table.rows.is_empty()).collect())
 }
 
 /// The claims of the paper, a table each, where this run is compared with it.
