@@ -152,9 +152,6 @@ impl Answer {
         let friction = self.object.friction.filter(|_| self.object.floor_level.is_none());
         let rocks = if self.p.p_rocking > Some(0.0) { "rocks" } else { "does not rock" };
         match (self.tree.pga_m_s2.zip(friction), self.p.p_rocking) {
-            _ if self.tree.pga_m_s2 == Some(0.0) || self.tree.pgv_m_s == Some(0.0) => {
-                "does not rock: nothing moves it".to_string()
-            }
             (Some((pga_m_s2, friction)), _) => {
                 let times = pga_m_s2 / (friction * G_M_S2);
                 let times = fixed(times, if times > 10.0 { 0 } else { 1 });
@@ -224,13 +221,8 @@ impl Answer {
         };
         let sd = magnitude_sd.filter(|sd| *sd > 0.0);
         let sd = sd.map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
-        let ratios = over_all([self]).filter_map(|answer| {
-            let over = answer.fragility.over;
-            let over = over.map_or(String::new(), |over| format!(" over {}", over.name_and_unit().0));
-            Some(format!("{} s{over}", significant(answer.uncertainty.pgv_pga_s?, 2)))
-        });
-        let ratios = ratios.collect::<Vec<_>>().join(", ");
-        Some(format!("For magnitude {}{sd}{whence} and PGV/PGA {ratios}.", fixed(magnitude?, 2)))
+        let ratio = significant(self.uncertainty.pgv_pga_s?, 2);
+        Some(format!("For magnitude {}{sd}{whence} and PGV/PGA {ratio} s.", fixed(magnitude?, 2)))
     }
 
     /// The largest part of the error, and what would narrow it.
