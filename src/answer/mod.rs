@@ -53,7 +53,6 @@ pub enum Question {
 
 /// What is predicted for an object: a row of the file that evaluate writes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct Answer {
     /// What is changed of the object, if it is a variant.
     pub variant: Option<String>,

@@ -127,7 +127,6 @@ fn worst_of(table: &AnswerTable) -> String {
             let of = if is_whole { "" } else { " of those assessed" };
             format!("{name} is the most likely to overturn{of}: {often}.")
         }
-        None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None => "Nothing overturns.".to_string(),
     }
 }

@@ -72,9 +72,6 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
     sections.retain(Document::has_content);
-    let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.made_by(stage));
-    let motions = motions.filter_map(|made| made.summary.lines().next());
-    head.facts.extend(motions.map(|first| format!("Motions: {}.", literal(first))));
     head.figures.extend(seen);
     head.sections.extend(sections);
     Ok((head, all))
