@@ -29,7 +29,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
 use crate::inputs::Reading;
-use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::file::ParquetTable;
@@ -92,13 +91,6 @@ pub struct Before {
     /// The rate after over the rate before, with limits; none where one has no rate.
     pub ratio: Interval<Option<f64>>,
     pub changes: Vec<String>,
-}
-
-impl Before {
-    /// How many times as often it overturns.
-    pub fn times(&self) -> String {
-        self.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(self.ratio))
-    }
 }
 
 /// The answers of a call, or of files, and what made each.

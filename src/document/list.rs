@@ -195,7 +195,7 @@ const COLUMNS: [(&str, Cell); 20] = [
     (OVERTURNS, |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
     (LIMITS, |answer| of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)),
-    ("times as often", |answer| of_before(answer, Before::times)),
+    ("times as often", |answer| of_before(answer, |before| TWO_DIGITS.value(before.ratio))),
     ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
     ("84 %", |answer| of_fragility(answer, 3)),

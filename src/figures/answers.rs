@@ -84,7 +84,7 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
             Some(before) => {
                 values.push((before.p, Ink::Muted, "before".to_string()));
                 values.push((p, Ink::Data(1), "after".to_string()));
-                before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()))
+                before.ratio.value.map_or(String::new(), |times| format!("× {}", significant(times, 2)))
             }
             None => {
                 values.push((p, Ink::Step(band), bands[band].to_string()));
