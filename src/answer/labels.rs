@@ -1,6 +1,5 @@
 //! The own columns of the list of the objects: texts behind the columns of answers.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use arrow_array::{ArrayRef, RecordBatch, StringArray};
@@ -34,13 +33,12 @@ pub fn columns(answers: &[&Answer]) -> anyhow::Result<Option<RecordBatch>> {
 pub fn read(batch: &Batch) -> Result<Vec<Labels>, TableError> {
     let schema = batch.rows.schema();
     let fields = schema.fields().iter().filter(|field| *field.data_type() == DataType::Utf8);
-    let names = fields.map(|field| field.name()).filter(|name| !is_of_answers(name));
-    let columns = names.map(|name| Ok((name, batch.texts(name)?))).collect::<Result<Vec<_>, TableError>>()?;
-    let labels = |row: usize| {
-        let cell = |cells: &[Option<Cow<str>>]| cells[row].as_deref().unwrap_or_default().to_string();
-        columns.iter().map(|(name, cells)| (name.to_string(), cell(cells))).collect()
-    };
-    Ok((0..batch.rows.num_rows()).map(labels).collect())
+    let mut all = vec![Labels::new(); batch.rows.num_rows()];
+    for name in fields.map(|field| field.name()).filter(|name| !is_of_answers(name)) {
+        let cells = batch.texts(name)?.into_iter().map(|cell| cell.unwrap_or_default().into_owned());
+        all.iter_mut().zip(cells).for_each(|(labels, cell)| labels.push((name.clone(), cell)));
+    }
+    Ok(all)
 }
 
 fn is_of_answers(name: &str) -> bool {

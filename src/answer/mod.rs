@@ -29,7 +29,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::chart::text::literal;
 use crate::inputs::Reading;
-use crate::number::TWO_DIGITS;
 use crate::pipeline::context::Progress;
 use crate::table::TableError;
 use crate::table::file::ParquetTable;
@@ -53,7 +52,6 @@ pub enum Question {
 
 /// What is predicted for an object: a row of the file that evaluate writes.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct Answer {
     /// What is changed of the object, if it is a variant.
     pub variant: Option<String>,
@@ -93,13 +91,6 @@ pub struct Before {
     /// The rate after over the rate before, with limits; none where one has no rate.
     pub ratio: Interval<Option<f64>>,
     pub changes: Vec<String>,
-}
-
-impl Before {
-    /// How many times as often it overturns.
-    pub fn times(&self) -> String {
-        self.ratio.value.map_or(String::new(), |_| TWO_DIGITS.value(self.ratio))
-    }
 }
 
 /// The answers of a call, or of files, and what made each.
@@ -388,7 +379,7 @@ pub fn variants_beside(path: &Path) -> PathBuf {
 /// Adds a row of a file: of a fragility it is a point, that over PGA beside the same object over PGV.
 fn add(answers: &mut Vec<Answer>, row: Answer, point: &CurveRow) {
     let Some(over) = row.fragility.over else { return answers.push(row) };
-    let row = Answer { p: StateColumns::default(), ..row };
+    let row = Answer { p: StateColumns::default(), tree: TreeColumns::default(), ..row };
     let before = answers.last_mut().filter(|before| before.object.structure == row.object.structure);
     let answer = match before.and_then(|before| Some((before.fragility.over?, before))) {
         Some((peak, before)) if peak == over => before,

@@ -92,7 +92,6 @@ fn centre_height(shape: &Shape) -> Option<f64> {
 
 /// The probabilities of the paper's tree under a motion (Eqs. 8 to 12); none where they are not known.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct TreeColumns {
     pub pga_m_s2: Option<f64>,
     pub pgv_m_s: Option<f64>,
@@ -139,7 +138,6 @@ impl TreeColumns {
 
 /// Probabilities of the limit states: under a motion, or in the time of exposure.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct StateColumns {
     pub p_rocking: Option<f64>,
     pub p_failure: Interval<Option<f64>>,
@@ -155,7 +153,6 @@ impl StateColumns {
 
 /// Annual rates of an object at a site.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct RateColumns {
     pub rocking_per_year: Option<f64>,
     pub failure_per_year: Interval<Option<f64>>,
@@ -198,7 +195,6 @@ impl RateColumns {
 
 /// What the fragility of an object comes to, over PGA in g or PGV in m/s.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct FragilityColumns {
     pub over: Option<Peak>,
     pub failure: Lognormal,
@@ -238,7 +234,6 @@ impl CurveRow {
 /// What an answer assumes, the warnings about it, and the parts of the error of overturning: standard
 /// deviations of ln of its annual rate, or of the logit of its probability.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default)]
 pub struct UncertaintyColumns {
     /// The magnitude, and its standard deviation where it is not given.
     pub magnitude: Option<f64>,

@@ -10,7 +10,7 @@ use rockfrag_core::statistics::Interval;
 use super::Document;
 use super::list::{named, not_assessed, pieces};
 use crate::answer::{Answer, AnswerTable, Before};
-use crate::number::{self, count, counted, significant};
+use crate::number::{count, counted, length, significant};
 
 const NAMED: usize = 20;
 
@@ -145,16 +145,14 @@ type Side = (&'static str, fn(&Answer) -> String);
 const SIDES: [Side; 3] = [
     ("", |answer| answer.object.place()),
     ("", |answer| answer.object.size().replace(' ', "\u{a0}")),
-    ("centre of mass at ", |answer| answer.object.centre_height_m.map_or("-".to_string(), metres)),
+    ("centre of mass at ", |answer| {
+        answer.object.centre_height_m.map_or("-".to_string(), |it| length(it) + " m")
+    }),
 ];
 const PARAMETERS: [Side; 2] = [
     ("tips at ", |answer| significant(answer.object.alpha_rad.map_or(f64::NAN, f64::to_degrees), 3) + "°"),
     ("restitution ", |answer| significant(answer.object.eta.unwrap_or(f64::NAN), 3)),
 ];
-
-fn metres(length: f64) -> String {
-    format!("{} m", number::length(length))
-}
 
 /// What differs: `0.35 × 2.10 m → 0.50 × 2.10 m`; the angle or eta where nothing else does.
 fn changes(both: [&Answer; 2]) -> Vec<String> {

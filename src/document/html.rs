@@ -9,20 +9,13 @@ use crate::chart::{Figure, html_of_panels};
 use crate::table::provenance::CREATED_BY;
 
 const STYLE: &str = include_str!("page.css");
-/// Columns that need small letters, and smaller ones.
-const MANY: usize = 9;
-const MOST: usize = 12;
 
 impl Document {
     /// An error if it has nothing to show.
     pub fn html(&self) -> anyhow::Result<String> {
         anyhow::ensure!(self.has_content(), "a page without content: expected answers, responses or fits");
         let (title, first) = (words(&self.title), self.figures.first());
-        // The title of the page is not said again.
-        let figure = |figure: &Figure| {
-            let is_said = words(&figure.title) == title;
-            write_figure(figure, if is_said { "" } else { &figure.title })
-        };
+        let figure = |figure: &Figure| write_figure(figure, &self.title);
         let is_beside = !self.overview.is_empty() && first.is_some_and(|first| first.panels.len() == 1);
         let page = html! {
             (DOCTYPE)
@@ -86,14 +79,14 @@ fn write_section(section: &Document) -> Markup {
             summary { (write(&section.title)) }
             (paragraphs(&section.facts))
             @for table in &section.tables { (write_table(table)) }
-            @for figure in &section.figures {
-                (write_figure(figure, if figure.title == section.title { "" } else { &figure.title }))
-            }
+            @for figure in &section.figures { (write_figure(figure, &section.title)) }
         }
     }
 }
 
-fn write_figure(figure: &Figure, title: &str) -> Markup {
+/// The title of what it stands in is not said again.
+fn write_figure(figure: &Figure, said: &str) -> Markup {
+    let title = if figure.title == said { "" } else { &figure.title };
     let panels = PreEscaped(html_of_panels(figure));
     let caption = html! { p class="caption" { (write(&figure.caption)) } };
     html! {
@@ -118,13 +111,11 @@ fn write_table(table: &Table) -> Markup {
         (_, true) => Some("short"),
         _ => None,
     };
-    let sizes = [(MOST, "many most"), (MANY, "many")];
-    let size = sizes.into_iter().find(|(most, _)| columns.len() > *most).map(|(_, class)| class);
     // What is wider than a small screen is scrolled, by keys too.
     html! {
         p class="caption" { (write(&table.caption)) }
         div class="scroll" tabindex="0" role="group" aria-label=(words(&table.caption)) {
-            table class=[size] {
+            table {
                 thead {
                     tr {
                         @for column in &columns { th scope="col" class=[class(column)] { (write(column.head)) } }

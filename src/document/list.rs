@@ -21,14 +21,13 @@ pub fn document(table: &AnswerTable) -> Document {
     let answered: Vec<&Answer> = table.rows.iter().filter(|answer| answer.is_answered()).collect();
     let when = Answer::when_of_all(&table.rows);
     let over = table.rows.iter().find_map(|answer| answer.fragility.over);
-    let what = match over {
-        Some(_) => "what motions overturn".to_string(),
-        None => format!("how likely to overturn {when}"),
-    };
     let all = pieces(&table.rows);
     let several = table.rows.iter().any(|answer| answer.file != worst.file);
     let of_what = if several { "Objects of several files".to_string() } else { counted(all, "object") };
-    let title = format!("{of_what}: {what}");
+    let title = match over {
+        Some(_) => format!("{of_what}: what motions overturn"),
+        None => format!("{of_what}: how likely to overturn {when}"),
+    };
     // What is changed comes first.
     let (news, others): (Vec<&Answer>, Vec<&Answer>) = table.rows.iter().partition(|answer| answer.is_news());
     let (rows, same) = table_of(&[&news[..], &others].concat(), &when);
@@ -36,31 +35,24 @@ pub fn document(table: &AnswerTable) -> Document {
         let lead = not_assessed(&table.rows).into_iter().collect();
         return Document { title, lead, tables: vec![rows], ..Document::default() };
     }
-    let upstairs = pieces(answered.iter().copied().filter(|answer| answer.object.floor_level.is_some()));
-    let [free, upstairs] = [pieces(answered.iter().copied()), upstairs].map(count);
-    let kinds = Some(table.rows.len()).filter(|rows| *rows < all);
-    let kinds = kinds.map_or(String::new(), |rows| format!(" in {}", counted(rows, "row")));
-    let place = format!("{free} of {}{kinds} assessed ({upstairs} above the ground)", count(all));
+    let assessed = count(pieces(answered.iter().copied()));
     let whose = format!(" of {}", worst.object.called());
     let target = worst.about_target(&whose).filter(|_| worst.rates.target < Some(worst.severity()));
     let lead = [Some(worst_of(table)), target, not_assessed(&table.rows)];
     let sections = table.details.iter().filter_map(|detail| section(table, detail));
-    let of_place = by_place(&answered, "floor", |answer| answer.object.short_place());
-    let of_section =
-        by_place(&answered, "section", |answer| literal(answer.label(SECTION).unwrap_or_default()));
+    let of_section = |answer: &Answer| literal(answer.label(SECTION).unwrap_or_default());
+    let floors = by_place(&answered, "floor", |answer| answer.object.short_place());
+    let mut places = Vec::from_iter(floors.into_iter().chain(by_place(&answered, "section", of_section)));
     // Sections may be the floors.
-    let rows_of = |table: &Option<Table>| table.as_ref().map_or(Vec::new(), |table| table.rows.clone());
-    let numbers = |table| rows_of(table).iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>();
-    let is_other = worst.before.is_none() && numbers(&of_section) != numbers(&of_place);
-    let overview = [remedies(table, &when), of_place, of_section.filter(|_| is_other)];
+    places.dedup_by_key(|table| table.rows.iter().map(|row| row[1..].to_vec()).collect::<BTreeSet<_>>());
     Document {
         title,
-        place: if several { String::new() } else { place } + &table.conditions(),
+        place: format!("{assessed} of {} assessed{}", count(all), table.conditions()),
         lead: lead.into_iter().flatten().collect(),
         tiles: if over.is_some() || table.rows.len() == 1 { Vec::new() } else { tiles(table, &when) },
         facts: same.into_iter().chain(facts(&answered, table.hazard.as_ref())).collect(),
         assumptions: assumptions(&answered),
-        overview: overview.into_iter().flatten().filter(|_| !several).collect(),
+        overview: remedies(table, &when).into_iter().chain(places).filter(|_| !several).collect(),
         tables: vec![rows],
         notes: doubts(&answered),
         figures: match over {
@@ -128,13 +120,13 @@ fn worst_of(table: &AnswerTable) -> String {
     let worst = &table.rows[0];
     let name = format!("{}{}, {},", worst.object.called(), file_of(worst, table), worst.object.place());
     let how_often = worst.how_often();
+    let is_whole = table.rows.iter().all(Answer::is_answered);
     match how_often.strip_prefix("overturns ") {
         _ if table.rows.len() == 1 => format!("{name} {how_often}."),
-        Some(often) if table.rows.iter().all(Answer::is_answered) => {
-            format!("{name} is the most likely to overturn: {often}.")
+        Some(often) => {
+            let of = if is_whole { "" } else { " of those assessed" };
+            format!("{name} is the most likely to overturn{of}: {often}.")
         }
-        Some(often) => format!("{name} is the most likely to overturn of those assessed: {often}."),
-        None if worst.fragility.over.is_some() => format!("{name} is the weakest: it {how_often}."),
         None => "Nothing overturns.".to_string(),
     }
 }
@@ -164,24 +156,21 @@ fn tiles(table: &AnswerTable, when: &str) -> Vec<Tile> {
         let answered = answers.iter().copied().filter(|answer| answer.is_answered());
         let (all, file) = (counted(pieces(answered), "object"), file_of(answers[0], table));
         let limits = TWO_DIGITS.limits(answers[0].list.expected_number, "95 % limits ");
-        // Alone it has a number of its own.
-        let any = answers[0].list.at_least_one.value.filter(|_| files.len() > 1);
-        let any = any.map_or(String::new(), |p| format!("; at least one with {}", PERCENT.one(p)));
-        let words = format!("of {all} expected to overturn {when}{limits}{any}{file}");
+        let words = format!("of {all} expected to overturn {when}{limits}{file}");
         let expected = answers[0].list.expected_number.value.unwrap_or_else(|| number_of(answers));
-        tiles.push(Tile::new(TWO_DIGITS.one(expected), words));
+        tiles.push(Tile { number: TWO_DIGITS.one(expected), words });
     }
     if files.len() == 1 {
         let any = table.rows[0].list.at_least_one;
         let limits = PERCENT.limits(any, "95 % limits ");
         let words =
             format!("probability that at least one overturns{limits}; one earthquake may overturn many");
-        tiles.extend(any.value.or(any.high).map(|_| Tile::new(PERCENT.value(any), words)));
+        tiles.extend(any.value.or(any.high).map(|_| Tile { number: PERCENT.value(any), words }));
         tiles.extend(table.rows[0].rates.target.map(|target| {
             let above = pieces(table.rows.iter().filter(|answer| answer.severity() > target));
             let all = pieces(table.rows.iter().filter(|answer| answer.is_answered()));
             let words = format!("of {} above the target of {}", counted(all, "object"), PERCENT.one(target));
-            Tile::new(count(above), words)
+            Tile { number: count(above), words }
         }));
     }
     tiles
@@ -206,7 +195,7 @@ const COLUMNS: [(&str, Cell); 20] = [
     (OVERTURNS, |answer| answer.p.p_overturning.value.map_or(String::new(), |p| OF_HUNDRED.one(p))),
     ("half overturn at", |answer| of_fragility(answer, 0)),
     (LIMITS, |answer| of_fragility(answer, 1) + &OF_HUNDRED.span(answer.p.p_overturning)),
-    ("times as often", |answer| of_before(answer, Before::times)),
+    ("times as often", |answer| of_before(answer, |before| TWO_DIGITS.value(before.ratio))),
     ("times, 95 % limits", |answer| of_before(answer, |before| TWO_DIGITS.span(before.ratio))),
     ("16 %", |answer| of_fragility(answer, 2)),
     ("84 %", |answer| of_fragility(answer, 3)),

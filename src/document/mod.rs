@@ -58,7 +58,7 @@ pub struct Document {
     /// Warnings that change a decision.
     pub notes: Vec<String>,
     pub figures: Vec<Figure>,
-    /// Folded, each with a title, facts, tables and figures: method, tests, files.
+    /// Folded, each with a title, facts, tables and figures: tests, files.
     pub sections: Vec<Document>,
 }
 
@@ -106,12 +106,6 @@ struct Column<'a> {
     /// Whether all its cells are so short that none is broken.
     is_short: bool,
     cells: Vec<&'a str>,
-}
-
-impl Tile {
-    pub fn new(number: impl Into<String>, words: impl Into<String>) -> Tile {
-        Tile { number: number.into(), words: words.into() }
-    }
 }
 
 impl Table {

@@ -43,13 +43,13 @@ fn tiles(when: &str, detail: &Detail) -> Vec<Tile> {
     for Answer { variant, p, .. } in as_it_is.into_iter().chain(best) {
         let limits = PERCENT.limits(p.p_overturning, "95 % limits ");
         let words = format!("overturns {when}: {}{limits}", variant.as_deref().unwrap_or_default());
-        tiles.push(Tile::new(PERCENT.value(p.p_overturning), words));
+        tiles.push(Tile { number: PERCENT.value(p.p_overturning), words });
     }
     let drawn = detail.at_site.as_ref().and_then(|drawn| drawn.fragility.as_ref());
     if let Some(Fragility { over, overturning, .. }) = drawn {
         let (what, unit, _) = over.name_and_unit();
-        let half = intensity(*over, overturning.theta.value.map(|theta| theta / unit));
-        tiles.push(Tile::new(half, format!("{what} at which half of the motions overturn it")));
+        let number = intensity(*over, overturning.theta.value.map(|theta| theta / unit));
+        tiles.push(Tile { number, words: format!("{what} at which half of the motions overturn it") });
     }
     tiles
 }

@@ -14,7 +14,7 @@ use rockfrag_core::warning::{UNNAMED, Warning};
 
 use crate::answer::{Answer, ObjectColumns, USUAL_YEARS, UncertaintyColumns, over_all};
 use crate::chart::text::literal;
-use crate::number::{self, PERCENT, count, fixed, period, plain, significant};
+use crate::number::{self, PERCENT, count, fixed, listed, period, plain, significant};
 
 impl ObjectColumns {
     /// The name; none where it was given without one.
@@ -80,12 +80,6 @@ impl ObjectColumns {
         }
     }
 
-    /// The name, and the floor if it stands on one.
-    pub fn name_and_floor(&self) -> String {
-        let floor = self.floor_level.map_or(String::new(), |_| format!(", {}", self.short_place()));
-        self.called() + &floor
-    }
-
     pub fn title(&self) -> String {
         let size = self.name().map_or(String::new(), |_| format!(", {}", self.size()));
         self.called() + &size
@@ -136,10 +130,8 @@ impl Answer {
             Some(format!("a median {} of {half}{limits}", fragility.over?.name_and_unit().0))
         });
         let halves: Vec<String> = halves.collect();
-        if !halves.is_empty() {
-            return format!("overturns at {}", halves.join(", or at "));
-        }
         match (self.rates.years, self.rates.overturning_per_year) {
+            _ if !halves.is_empty() => format!("overturns at {}", halves.join(", or at ")),
             _ if self.object.p_rad_s.is_none() => format!("has no answer: {}", self.reason()),
             (None, _) if self.p.p_rocking <= Some(0.0) => self.uplift(),
             (None, _) => format!("overturns with a probability of {} {when}{limits}", PERCENT.value(p)),
@@ -160,9 +152,6 @@ impl Answer {
         let friction = self.object.friction.filter(|_| self.object.floor_level.is_none());
         let rocks = if self.p.p_rocking > Some(0.0) { "rocks" } else { "does not rock" };
         match (self.tree.pga_m_s2.zip(friction), self.p.p_rocking) {
-            _ if self.tree.pga_m_s2 == Some(0.0) || self.tree.pgv_m_s == Some(0.0) => {
-                "does not rock: nothing moves it".to_string()
-            }
             (Some((pga_m_s2, friction)), _) => {
                 let times = pga_m_s2 / (friction * G_M_S2);
                 let times = fixed(times, if times > 10.0 { 0 } else { 1 });
@@ -178,13 +167,12 @@ impl Answer {
         let target = PERCENT.one(self.rates.target.filter(|_| self.rates.years.is_some())?);
         let (target, why_none) = (format!("{target} {}", self.when()?), self.why_no_base());
         let Some(base) = self.base(|side| side.value) else {
-            let anchored = "Anchored, it would not rock.";
-            return Some(format!("No base{whose} is found for {target}: {why_none}. {anchored}"));
+            return Some(format!(
+                "No base{whose} is found for {target}: {why_none}. Anchored, it would not rock."
+            ));
         };
-        let by_limit = match self.base(|side| side.high) {
-            Some(base) => format!("{base} by the upper limit"),
-            None => format!("none by the upper limit: {why_none}"),
-        };
+        let by_limit = self.base(|side| side.high).map(|base| format!("{base} by the upper limit"));
+        let by_limit = by_limit.unwrap_or_else(|| format!("none by the upper limit: {why_none}"));
         Some(format!("Base{whose} for {target}: {base}; {by_limit}."))
     }
 
@@ -210,19 +198,11 @@ impl Answer {
     }
 
     /// What of its rate lies beyond a curve that ends too early.
-    fn beyond_the_curve(&self, hazard: Option<&Hazard>, whose: &str) -> Option<String> {
+    fn beyond_the_curve(&self, whose: &str) -> Option<String> {
         let is_early = self.uncertainty.warnings().contains(&Warning::HazardEndsEarly);
         let share = PERCENT.one(self.rates.share_extrapolated.filter(|_| is_early)?);
-        let end = match hazard {
-            Some(Hazard::Curve(PeakHazard { peak, curve, .. })) => {
-                let [_, (last, rate)] = curve.ends();
-                let years = count((1.0 / rate).round() as usize);
-                format!(", {} (once in {years} years)", with_unit(*peak, last))
-            }
-            _ => String::new(),
-        };
         Some(format!(
-            "{share} of the rate{whose} lies beyond the end of the hazard curve{end}, continued by its last slope: \
+            "{share} of the rate{whose} lies beyond the end of the hazard curve, continued by its last slope: \
              the limits range from none of these motions overturning it to all of them."
         ))
     }
@@ -241,42 +221,30 @@ impl Answer {
         };
         let sd = magnitude_sd.filter(|sd| *sd > 0.0);
         let sd = sd.map_or(String::new(), |sd| format!(" ± {}", significant(sd, 2)));
-        let ratios = over_all([self]).filter_map(|answer| {
-            let over = answer.fragility.over;
-            let over = over.map_or(String::new(), |over| format!(" over {}", over.name_and_unit().0));
-            Some(format!("{} s{over}", significant(answer.uncertainty.pgv_pga_s?, 2)))
-        });
-        let ratios = ratios.collect::<Vec<_>>().join(", ");
-        Some(format!("For magnitude {}{sd}{whence} and PGV/PGA {ratios}.", fixed(magnitude?, 2)))
+        let ratio = significant(self.uncertainty.pgv_pga_s?, 2);
+        Some(format!("For magnitude {}{sd}{whence} and PGV/PGA {ratio} s.", fixed(magnitude?, 2)))
     }
 
     /// The largest part of the error, and what would narrow it.
     fn largest_uncertainty(&self, whose: &str) -> Option<String> {
         let is_known = self.rates.years.is_none() || self.rates.overturning_per_year.value > Some(0.0);
-        let [name, remedy, options] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
-        Some(format!("Largest uncertainty{whose}: {name}, narrowed by {remedy} ({options})."))
+        let [name, remedy] = of_source(self.uncertainty.error_largest.filter(|_| is_known)?);
+        Some(format!("Largest uncertainty{whose}: {name}, narrowed by {remedy}."))
     }
 }
 
-/// What is uncertain, what narrows it, and the options for that.
-pub fn of_source(source: UncertaintySource) -> [&'static str; 3] {
+/// What is uncertain, and what narrows it.
+pub fn of_source(source: UncertaintySource) -> [&'static str; 2] {
     match source {
-        UncertaintySource::Fit => ["fragility", "records of the site", "--fits"],
-        UncertaintySource::Magnitude => ["magnitude", "a disaggregation", "--magnitude"],
-        UncertaintySource::Velocity => ["PGV", "its value or hazard", "--pgv, --hazard"],
-        UncertaintySource::Eta => ["restitution", "a rocking test", "--eta, --eta-sd"],
-        UncertaintySource::Wall => ["rebound from the wall", "its measured value", "--wall"],
-        UncertaintySource::Object => {
-            ["centre of mass", "weighing or a tilt test", "--centre-height-sd, --alpha-sd"]
-        }
-        UncertaintySource::Floor => ["building", "its measured period", "--period, --period-sd"],
-        UncertaintySource::Hazard => ["hazard", "a study of the site", "--hazard"],
+        UncertaintySource::Fit => ["fragility", "records of the site"],
+        UncertaintySource::Magnitude => ["magnitude", "a disaggregation"],
+        UncertaintySource::Velocity => ["PGV", "its value or hazard"],
+        UncertaintySource::Eta => ["restitution", "a rocking test"],
+        UncertaintySource::Wall => ["rebound from the wall", "its measured value"],
+        UncertaintySource::Object => ["centre of mass", "weighing or a tilt test"],
+        UncertaintySource::Floor => ["building", "its measured period"],
+        UncertaintySource::Hazard => ["hazard", "a study of the site"],
     }
-}
-
-fn with_unit(peak: Peak, intensity: f64) -> String {
-    let (_, unit, symbol) = peak.name_and_unit();
-    format!("{} {symbol}", significant(intensity / unit, 3))
 }
 
 /// An intensity with its unit; one beyond all records without a number.
@@ -298,105 +266,83 @@ pub fn intensity_cells(over: Peak, Lognormal { at_16, theta, at_84, beta, .. }: 
 
 /// What answers rest on, one or more, the worst of which is the first: a line each.
 pub fn facts(all: &[&Answer], hazard: Option<&Hazard>) -> Vec<String> {
-    let worst = all[0];
-    let (whose, alone) = match all {
-        [one] => (String::new(), Some(one)),
-        _ => (format!(" of {}", worst.object.called()), None),
+    let (worst, is_alone) = (all[0], all.len() == 1);
+    let whose = if is_alone { String::new() } else { format!(" of {}", worst.object.called()) };
+    let valid = match (is_alone, worst.object.friction_needed()) {
+        (false, _) => {
+            Some("With less friction than it needs, an object slides instead of rocking.".to_string())
+        }
+        (true, least) => {
+            least.map(|it| format!("Valid if friction is well above {}; else it slides.", fixed(it, 2)))
+        }
     };
-    let friction = |one: &&Answer| Some(fixed(one.object.friction_needed()?, 2));
-    let valid = match alone.map(friction) {
-        None => "With less friction than it needs, an object slides instead of rocking.".to_string(),
-        Some(None) => String::new(),
-        Some(Some(friction)) => format!("Valid if friction is well above {friction}; else it slides."),
-    };
-    let upstairs = || all.iter().map(|answer| &answer.object).filter(|object| object.floor_level.is_some());
-    let in_percent = upstairs().any(|object| object.floor.is_none() && object.floor_level < Some(1.0));
-    let percent = if in_percent { "; 60 % up is at 60 % of its height" } else { "" };
-    let building = upstairs().next().map(|_| format!(" The building is taken as linear{percent}."));
-    let valid = valid + &building.unwrap_or_default();
-    let lognormal = alone.and_then(|one| {
-        let Lognormal { beta, largest_error, .. } = one.fragility.overturning;
-        let [beta, error] = [beta?, largest_error?].map(|value| significant(value, 2));
-        Some(format!("Overturning is lognormal with beta {beta}, within {error}."))
-    });
-    let model = model_of_all(all).map(|model| format!("By {model}{}.", usual_motion(hazard)));
-    let beyond = worst.beyond_the_curve(hazard, &whose);
+    let is_upstairs = all.iter().any(|answer| answer.object.floor_level.is_some());
+    let building = is_upstairs.then(|| "The building is taken as linear.".to_string());
+    let models = Vec::from_iter(BTreeSet::from_iter(all.iter().flat_map(|answer| &answer.object.model)));
+    let models = literal(&listed(&models, 1));
+    let model = (!models.is_empty()).then(|| format!("By {models}{}.", usual_motion(hazard)));
     let uncertain = [worst.assumed(), worst.largest_uncertainty(&whose), limits_cover(all)];
-    let others = [lognormal, beyond, model, Some(valid.trim().to_string())];
-    uncertain.into_iter().chain(others).flatten().filter(|line| !line.is_empty()).collect()
+    let others = [worst.beyond_the_curve(&whose), model, valid, building];
+    uncertain.into_iter().chain(others).flatten().collect()
 }
 
-/// What else answers rest on, a line each: for who signs them.
-pub fn assumptions(all: &[&Answer]) -> Vec<String> {
-    let objects = || all.iter().map(|answer| &answer.object);
-    let span = |value: fn(&ObjectColumns) -> Option<f64>, digits: usize| {
-        let values = || objects().filter_map(value);
-        let [low, high] =
-            [values().reduce(f64::min)?, values().reduce(f64::max)?].map(|of| significant(of, digits));
-        Some(if low == high { low } else { format!("{low} to {high}") })
-    };
-    let said = |is_so: bool, words: &str| is_so.then(|| words.to_string());
-    let site =
-        said(all[0].rates.years.is_some(), "The hazard is that of the ground for which its curve was made.");
-    let building = span(|object| object.floor_period_s, 2).map(|periods| {
-        format!(
-            "Buildings: linear, first period {periods} s, as given or by ASCE 7 for 3.5 m a storey; torsion and \
-             yielding are not counted."
-        )
-    });
-    let both = said(
-        objects().any(|object| object.depth_m.is_some()),
-        "What has a width and a depth may fall in both directions: the rates add up.",
-    );
-    let eta = span(|object| object.eta, 2).map(|eta| {
-        format!(
-            "Restitution η, the angular velocity after an impact over that before: {eta}, with its scatter; by \
-             Housner's formula for a solid block where none is given."
-        )
-    });
-    let limit = objects().find_map(|object| object.limit_state).unwrap_or(LIMIT_STATE);
-    let too_far = span(|object| object.alpha_rad.map(f64::to_degrees), 2).map(|degrees| {
-        format!(
-            "Rocks too far: beyond {} of the slenderness α, the angle at which it tips ({degrees}°).",
-            PERCENT.one(limit)
-        )
-    });
-    let fixed = [
+type Value = fn(&Answer) -> Option<f64>;
+
+/// What else answers rest on, for who signs them: each where a value of one of them is known, with the span
+/// of these values for @.
+const ASSUMPTIONS: [(Value, &str); 7] = [
+    (|of| of.rates.years, "The hazard is that of the ground for which its curve was made."),
+    (
+        |of| of.object.floor_period_s,
+        "Buildings: linear, first period @ s, as given or by ASCE 7 for 3.5 m a storey; torsion and yielding \
+         are not counted.",
+    ),
+    (|of| of.object.depth_m, "What has a width and a depth may fall in both directions: the rates add up."),
+    (
+        |of| of.object.eta,
+        "Restitution η, the angular velocity after an impact over that before: @, with its scatter; by \
+         Housner's formula for a solid block where none is given.",
+    ),
+    (
+        |of| of.object.alpha_rad.map(f64::to_degrees),
+        "Rocks too far: beyond {limit} of the slenderness α, the angle at which it tips (@°).",
+    ),
+    (
+        |_| Some(0.0),
         "Rigid objects that stand free and do not slide. Not counted: vertical motion; edges rounded below, bases \
          round in plan, soft floors and thin bottoms, all of which overturn more often.",
+    ),
+    (
+        |_| Some(0.0),
         "FEMA P-58 has more falls: its median velocities for unanchored components are 1.7 to 2.0 times lower. \
          Under records scaled to them 5 to 10 % of such blocks overturn, not half.",
-    ];
-    let all = [site, building, both, eta, too_far].into_iter().flatten();
-    all.chain(fixed.map(str::to_string)).collect()
-}
+    ),
+];
 
-/// What predicts; of objects that are fitted each to its own responses, what is the same.
-fn model_of_all(all: &[&Answer]) -> Option<String> {
-    let models: BTreeSet<&str> = all.iter().filter_map(|answer| answer.object.model.as_deref()).collect();
-    let (first, object) = (models.first()?, &all[0].object);
-    let surface = object.motions.filter(|_| models.len() > 1 && first.contains("surface"));
-    Some(surface.map_or_else(
-        || literal(object.model.as_deref().unwrap_or(first)),
-        |kind| {
-            let motions = kind.description();
-            format!("rockfrag's universal surface, calibrated to the simulated responses ({motions})")
-        },
-    ))
+pub fn assumptions(all: &[&Answer]) -> Vec<String> {
+    let limit = all.iter().find_map(|answer| answer.object.limit_state).unwrap_or(LIMIT_STATE);
+    let said = ASSUMPTIONS.iter().filter_map(|(value, words)| {
+        let values = || all.iter().filter_map(|answer| value(answer));
+        let ends = [values().reduce(f64::min)?, values().reduce(f64::max)?].map(|end| significant(end, 2));
+        let span = if ends[0] == ends[1] { ends[0].clone() } else { ends.join(" to ") };
+        Some(words.replace('@', &span).replace("{limit}", &PERCENT.one(limit)))
+    });
+    said.collect()
 }
 
 /// The motions that codes design for and consider, by the curve: who knows the site sees a wrong unit or
 /// column by them.
 fn usual_motion(hazard: Option<&Hazard>) -> String {
     let Some(Hazard::Curve(PeakHazard { peak, curve, .. })) = hazard else { return String::new() };
+    let (what, unit, symbol) = peak.name_and_unit();
     let once_in = |years: f64| {
         let intensity = curve.intensity(1.0 / years);
         let years = count((1.0 / curve.exceedance(intensity)).round() as usize);
-        format!("{} once in {years} years", with_unit(*peak, intensity))
+        format!("{} {symbol} once in {years} years", significant(intensity / unit, 3))
     };
     let mut usual = USUAL_YEARS.map(once_in).to_vec();
     usual.dedup();
-    format!("; {} {}", peak.name_and_unit().0, usual.join(", "))
+    format!("; {what} {}", usual.join(", "))
 }
 
 fn limits_cover(all: &[&Answer]) -> Option<String> {

@@ -164,14 +164,13 @@ fn moving(response: &Trace, id: usize) -> String {
     });
     let spare = (NARROWEST - left - right).max(0.0);
     let (middle, width) = (left + 0.5 * spare, left + right + spare);
-    let (ground, height) = (high + 40.0, high + 70.0);
+    let (ground, height) = (high + 40.0, high + 55.0);
     // A block turns about the corner on the side to which it leans.
     let turns =
         turns.iter().map(|degrees| format!("{} {} 0", round(*degrees), round(half.copysign(*degrees))));
     let turns = turns.collect::<Vec<_>>().join(";");
     let clock = format!("begin=\"play{id}.click\" dur=\"{}s\" fill=\"freeze\"", round(seconds));
     let name = escape(&format!("{}, moving", words(&response.title())));
-    let (end, below) = (width - 20.0, ground + 15.0);
     let [edge, top, wide, tall, centre] = [-half, -high, 2.0 * half, high, -0.5 * high].map(round);
     format!(
         "<svg class=\"moving\" viewBox=\"0 0 {width:.0} {height:.0}\" role=\"img\" aria-label=\"{name}\">\n\
@@ -181,14 +180,11 @@ fn moving(response: &Trace, id: usize) -> String {
          fill-opacity=\"0.2\" stroke=\"var(--ink)\" stroke-width=\"1.6\"/>\n\
          <circle cx=\"0\" cy=\"{centre}\" r=\"3.4\" fill=\"var(--data1)\"/>\n\
          <animateTransform attributeName=\"transform\" type=\"rotate\" {clock} values=\"{turns}\"/>\n</g></g>\n\
-         <path d=\"M20 {below:.1}H{end:.0}\" stroke=\"var(--rule)\" stroke-width=\"2\"/>\n\
-         <circle cx=\"20\" cy=\"{below:.1}\" r=\"4\" fill=\"var(--data1)\"><animate attributeName=\"cx\" {clock} \
-         from=\"20\" to=\"{end:.0}\"/></circle>\n\
          <g id=\"play{id}\" class=\"play\" role=\"button\" tabindex=\"0\" aria-label=\"play\">\
          <rect x=\"20\" y=\"8\" width=\"62\" height=\"24\" rx=\"12\" fill=\"var(--data1)\"/>\
          <path d=\"M34 14v12l10-6z\" fill=\"var(--paper)\"/>\
          <text x=\"50\" y=\"24\" font-size=\"11.5\" fill=\"var(--paper)\">play</text></g>\n</svg>\n",
-        end,
+        width - 20.0,
     )
 }
 

@@ -57,7 +57,7 @@ fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
     let over = answers.iter().find_map(|answer| answer.fragility.over)?;
     let layer = |(number, answer): (usize, &&Answer)| {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
-        Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks)
+        Layer::line(&answer.object.called(), Ink::Data(number), marks)
     };
     let layers: Vec<Layer> = answers.iter().take(CURVES).enumerate().map(layer).collect();
     let (what, averaged) = (over.name_and_unit().0, averaged(over));
@@ -84,7 +84,7 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
             Some(before) => {
                 values.push((before.p, Ink::Muted, "before".to_string()));
                 values.push((p, Ink::Data(1), "after".to_string()));
-                before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()))
+                before.ratio.value.map_or(String::new(), |times| format!("× {}", significant(times, 2)))
             }
             None => {
                 values.push((p, Ink::Step(band), bands[band].to_string()));
@@ -257,10 +257,7 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     let most = (Z_95 * parts.first()?.1).exp();
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
     let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
-    let names = Axis::names(parts.iter().map(|(source, _)| {
-        let [name, remedy, _] = of_source(*source);
-        format!("{name}: {remedy}")
-    }));
+    let names = Axis::names(parts.iter().map(|(source, _)| of_source(*source).join(": ")));
     let factors = || parts.iter().map(|(_, sd)| (Z_95 * sd).exp());
     let marks = factors().zip(0_i32..).map(|(x, row)| Mark { low: 1.0, high: x, ..Mark::new(x, row.into()) });
     let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];

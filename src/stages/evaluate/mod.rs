@@ -180,11 +180,11 @@ impl Stage for Evaluate {
         let rows = assess(&objects, &question, &models_of, &context.bar(objects.len()))?;
         // The text states these, or a warning of the file that is read.
         let told = [Warning::HazardEndsEarly, Warning::MedianHazard];
-        for answer in answer::over_all(&rows) {
-            let warnings =
-                answer.uncertainty.warnings().into_iter().filter(|warning| !told.contains(warning));
-            context.warn(warnings.map(|warning| (warning, answer.object.structure.clone())).collect());
-        }
+        let warned = answer::over_all(&rows).flat_map(|answer| {
+            let warnings = answer.uncertainty.warnings().into_iter();
+            warnings.map(|warning| (warning, answer.object.structure.clone()))
+        });
+        context.warn(warned.filter(|(warning, _)| !told.contains(warning)).collect());
         let all = answer::table(&rows, &question)?;
         let mut table = AnswerTable { rows, made: vec![context.made("")], ..AnswerTable::default() };
         if let Question::Hazard { site, years, .. } = &question {

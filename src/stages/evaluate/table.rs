@@ -1,8 +1,6 @@
 //! Probabilities at each intensity of a table, Parquet or CSV: peaks by their headings, structures by their
 //! columns.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::path::Path;
 
 use anyhow::{bail, ensure};
@@ -11,9 +9,9 @@ use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GroundMotion, MotionProbabilities, unusual_motions};
 use rockfrag_core::motion::{Peaks, validate_medians};
-use rockfrag_core::object::{Object, Restitution, RockingObject};
+use rockfrag_core::object::{Object, Restitution};
 use rockfrag_core::rocking::Structure;
-use rockfrag_core::warning::Warning;
+use rockfrag_core::warning::{Warning, Warnings};
 
 use super::Evaluate;
 use crate::answer::{TreeColumns, UncertaintyColumns};
@@ -36,7 +34,6 @@ pub fn evaluate(
     models: &Models,
     context: &Context,
 ) -> anyhow::Result<(Vec<RecordBatch>, String)> {
-    let (structures, place) = (&call.structures, call.place);
     let batches = match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("parquet")) {
         true => read_parquet(path, reader)?,
         false => {
@@ -46,7 +43,10 @@ pub fn evaluate(
             vec![Batch { path: path.into(), first_row: 0, rows }]
         }
     };
-    let given = if structures.is_given() { structures.objects(&place, reader)? } else { Vec::new() };
+    let given = match call.structures.is_given() {
+        true => call.structures.objects(&call.place, reader)?,
+        false => Vec::new(),
+    };
     let one = "a table of intensities: expected one structure, or p_rad_s, alpha_rad and eta in the table";
     ensure!(given.len() < 2, UsageError::because(one));
     let columns = batches.first().map(|batch| batch.rows.schema());
@@ -55,25 +55,16 @@ pub fn evaluate(
         let both = format!("column {column} and options of a structure; leave out the one or the other");
         bail!(UsageError::because(format!("{}: {both}", path.display())));
     }
-    let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     // A typical motion shows a wrong unit.
     let given_peaks: Vec<Peaks> = peaks.iter().flatten().copied().flatten().collect();
     validate_medians(given_peaks.iter().copied()).map_err(|problem| TableError::table(path, problem))?;
-    let mut known = HashMap::new();
-    let mut evaluated = Vec::new();
     let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
+    let mut evaluated = Vec::new();
     for (batch, peaks) in batches.iter().zip(&peaks) {
-        let names = vec!["structure".into(); batch.rows.num_rows()];
-        let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
-        for structure in &structures {
-            if let Entry::Vacant(entry) = known.entry(bits(structure)) {
-                let object = Object::with_parameters(structure, Restitution::Number(structure.eta));
-                entry.insert(models.rocking_object(&object.at(&place))?);
-            }
-        }
-        let rocking_object = |row: usize| given.as_ref().unwrap_or_else(|| &known[&bits(&structures[row])]);
-        evaluated.push(with_probabilities(batch, peaks, rocking_object, call.magnitude, context)?);
+        let (rows, warnings) = with_probabilities(batch, peaks, given.first(), call, models)?;
+        context.warn(warnings);
+        evaluated.push(rows);
         bar.advance(batch.rows.num_rows())?;
     }
     let without = peaks.iter().flatten().filter(|peaks| peaks.is_none()).count();
@@ -87,47 +78,52 @@ const NO_PEAKS: &str = "without PGA or PGV";
 /// Columns that say what a row is about.
 const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", "width_m", "height_m"];
 
-fn bits(structure: &Structure) -> [u64; 3] {
-    [structure.p_rad_s, structure.alpha_rad, structure.eta].map(f64::to_bits)
-}
-
-/// The rows with their probabilities; columns of the input stand behind, but for those of the same name.
-fn with_probabilities<'a>(
+/// The rows with their probabilities, by the structure that is given or each by its own, and the warnings
+/// about them; columns of the input stand behind, but for those of the same name.
+fn with_probabilities(
     batch: &Batch,
-    given: &[Option<Peaks>],
-    rocking_object: impl Fn(usize) -> &'a (RockingObject, Vec<Warning>) + Sync,
-    magnitude: Option<f64>,
-    context: &Context,
-) -> anyhow::Result<RecordBatch> {
+    peaks: &[Option<Peaks>],
+    given: Option<&Object>,
+    call: &Evaluate,
+    models: &Models,
+) -> anyhow::Result<(RecordBatch, Warnings)> {
     let mw = batch.numbers("mw")?;
+    let parametric = |of: &Structure| Object::with_parameters(of, Restitution::Number(of.eta));
+    let objects: Vec<Object> = match given {
+        Some(object) => vec![object.clone(); mw.len()],
+        None => {
+            let structures = batch.structures(&vec!["structure".into(); mw.len()])?;
+            structures.iter().map(|of| parametric(of).at(&call.place)).collect()
+        }
+    };
     let evaluate = |row: usize| {
-        let Some(given) = given[row] else {
+        let Some(given) = peaks[row] else {
             let warnings = Some(NO_PEAKS.to_string());
-            return (TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() });
+            return Ok((TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() }));
         };
-        let (rocking_object, about_model) = rocking_object(row);
+        let (rocking_object, mut warnings) = models.rocking_object(&objects[row])?;
         let peaks = given.clamp_to_recorded();
-        let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
+        warnings.extend(rocking_object.warnings(peaks));
         warnings.extend((peaks != given).then_some(Warning::AtRim));
         let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
             pgv_m_s: Some(peaks.pgv_m_s),
-            mw: mw[row].or(magnitude),
+            mw: mw[row].or(call.magnitude),
             vs30_m_s: None,
         };
         warnings.extend(unusual_motions(motion.mw, None));
-        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(rocking_object);
-        let tree = TreeColumns::new(&motion, rocking_object, states);
-        (tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks))
+        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking_object);
+        let tree = TreeColumns::new(&motion, &rocking_object, states);
+        Ok((tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks)))
     };
-    let rows: Vec<_> = (0..batch.rows.num_rows()).into_par_iter().map(evaluate).collect();
+    let rows: Vec<_> = (0..mw.len()).into_par_iter().map(evaluate).collect();
+    // The first error in the order of the rows, whichever thread meets one first.
+    let rows: Vec<_> = rows.into_iter().collect::<anyhow::Result<_>>()?;
     let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
-    let warned =
-        uncertainties.iter().enumerate().filter(|(row, of)| given[*row].is_some() && of.warnings.is_some());
-    for (row, uncertainty) in warned {
+    let warned = uncertainties.iter().enumerate().flat_map(|(row, of)| {
         let place = format!("row {}", batch.first_row + row + 1);
-        context.warn(uncertainty.warnings().into_iter().map(|warning| (warning, place.clone())).collect());
-    }
+        of.warnings().into_iter().map(move |warning| (warning, place.clone()))
+    });
     let own = rows::side_by_side(&[
         rows::batch::<TreeColumns>(&trees)?,
         rows::batch::<UncertaintyColumns>(&uncertainties)?,
@@ -135,7 +131,7 @@ fn with_probabilities<'a>(
     let fields = batch.rows.schema().fields().clone();
     let mut kept: Vec<usize> = (0..fields.len()).collect();
     kept.retain(|at| own.schema().index_of(fields[*at].name()).is_err());
-    rows::side_by_side(&[own, batch.rows.project(&kept)?])
+    Ok((rows::side_by_side(&[own, batch.rows.project(&kept)?])?, warned.collect()))
 }
 
 /// The peaks of each row with both, m/s2 and m/s.

@@ -1,7 +1,7 @@
-//! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
+//! The page: one sentence, one table, one figure; then further figures; folded, tests and files.
 
 use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
-use rockfrag_core::paper::{self, Claim, Support};
+use rockfrag_core::paper::{self, Claim};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::studies::Validation;
@@ -16,7 +16,7 @@ use crate::answer::AnswerTable;
 use crate::chart::Figure;
 use crate::chart::text::{file_words, literal, minus};
 use crate::document::{Document, Table, compare, response};
-use crate::figures::common::{called, name, name_of, order, rocked, scaled_label, short_label, title};
+use crate::figures::common::{called, name, name_of, order, rocked, scaled_label, short_label};
 use crate::figures::*;
 use crate::number::{self, TWO_DIGITS};
 use crate::stages::compare_paper::table_two;
@@ -24,9 +24,8 @@ use crate::stages::shared::fits::CurveLine;
 use crate::table::responses::{CapacityFitRow, OutcomeWord, ResponseRow};
 use crate::table::rows::{self, by};
 
-/// The most motions and structures of a table of demand.
-const MOST_MOTIONS: usize = 30;
-const MOST_STRUCTURES: usize = 8;
+/// The most responses of a table of demand.
+const MOST_RESPONSES: usize = 100;
 /// Structures in the first sentence; the table has all.
 const MOST_NAMED: usize = 4;
 /// Figures that are seen on the page of a list, which has no others, of the paper and of other responses.
@@ -40,22 +39,6 @@ const MOST_GROUPS: usize = 24;
 /// The most panels of a figure of several structures, and groups that have a colour.
 const MOST_PANELS: usize = 4;
 const MOST_COLOURS: usize = 6;
-
-/// What is said of each stage that made a table.
-const METHOD: &str = "\
-synthesize-motions: Ground motions are a velocity pulse (Mavroeidis & Papageorgiou 2003), stochastic high \
-frequencies, or both.
-import-motions: Ground motions are records, one component each.
-simulate: Each structure is a rigid block or frame that rocks without sliding and loses velocity at each \
-impact (Eqs. 4 to 6). Its demand is the largest rotation over *α* (Eq. 7).
-fit-pex: The demand in safe rocking is regressed on one measure or two, with one plane for weak motions and \
-one for strong ones (Eqs. 14 to 18 of Dimitrakopoulos & Paraskeva 2015, Earthquake Engineering & Structural \
-Dynamics 44, 2015\u{2013}2033).
-fit-pro: Overturning of what rocks follows the paper's lognormal curve of one measure or two (Eqs. 19 to \
-24), or the universal surface over peak acceleration and velocity, calibrated to the responses.
-ida: Each motion is scaled until it overturns the structure; these intensities are taken as lognormal.
-validate: Predicted probabilities are compared with the outcomes of motions that were not fitted.
-evaluate: Probabilities are those of the model; annual rates integrate them over the hazard of the site.";
 
 /// What two words mean.
 const ANGLES: &str = "Slenderness (*α*): the angle at which an object tips. Restitution (*η*): its angular \
@@ -79,26 +62,16 @@ pub fn page(tables: &mut Tables) -> anyhow::Result<(Document, Vec<Figure>)> {
     tables.made().for_each(|made| joined.join(&made.warnings));
     let (warnings, folded) = if is_client { (vec![], joined.lines()) } else { (joined.lines(), vec![]) };
     head.notes = [tables.left_out.clone(), head.notes, warnings].concat();
-    let is_used = |stage: &str| tables.made_by(stage).is_some() && (stage != "fit-pex" || !is_client);
-    let method = METHOD.lines().filter_map(|line| line.split_once(": "));
-    let method = method.filter(|(stage, _)| is_used(stage)).map(|(_, words)| words.to_string());
-    head.tables.extend(demands(tables)?);
-    let mut tests = tests(tables)?;
-    if head.tables.is_empty() {
-        head.tables.extend(tests.drain(..tests.len().min(1)));
-    }
+    head.tables.extend([vec![outcomes(tables)?], demands(tables)?].concat());
+    head.tables.retain(|table| !table.rows.is_empty());
     let section = |title: &str| Document { title: title.to_string(), ..Document::default() };
     let mut sections = vec![
         Document { tables: claims(tables), ..section("The paper's claims") },
         Document { figures: if is_client { Vec::new() } else { more }, ..section("More figures") },
-        Document { facts: method.collect(), ..section("Method") },
-        Document { facts: folded, tables: tests, ..section("Tests and fits") },
+        Document { facts: folded, tables: tests(tables)?, ..section("Tests and fits") },
         Document { tables: vec![files(tables)], ..section("Files") },
     ];
     sections.retain(Document::has_content);
-    let motions = ["synthesize-motions", "import-motions"].iter().filter_map(|stage| tables.made_by(stage));
-    let motions = motions.filter_map(|made| made.summary.lines().next());
-    head.facts.extend(motions.map(|first| format!("Motions: {}.", literal(first))));
     head.figures.extend(seen);
     head.sections.extend(sections);
     Ok((head, all))
@@ -110,7 +83,7 @@ fn figures(tables: &mut Tables) -> anyhow::Result<Vec<Figure>> {
     let rest = groups.split_off(groups.len().min(MOST_GROUPS));
     if !rest.is_empty() {
         let names = rest.into_iter().map(name).collect::<Vec<_>>().join("; ");
-        tables.left_out.push(format!("Not drawn, as they overturn less than those that are: {names}."));
+        tables.left_out.push(format!("Not drawn, beyond the first {MOST_GROUPS}: {names}."));
     }
     groups.sort_by_key(|cases| order(cases));
     let (motions, fits) = (tables.motions()?, &tables.fits);
@@ -202,7 +175,8 @@ fn cell(row: &Value, field: &str) -> String {
         }
         Value::String(name) if field == "structure" => name_of(name),
         Value::String(name) if field.starts_with("im_") => short_label(&name.clone().into()),
-        Value::String(text) => text.replace('_', " "),
+        Value::String(text) if text.contains(' ') => literal(text),
+        Value::String(word) => word.replace('_', " "),
         _ => String::new(),
     }
 }
@@ -257,37 +231,33 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     Ok(Table::new(&heads, rows).explained("Motions that rock and overturn each structure, with 95 % limits"))
 }
 
-/// What came of each structure under each motion, a table for each file of few motions.
+/// What came of each structure under each motion, a table for each file of few responses.
 fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
     let structures = by(&tables.groups, |cases| &cases.structure.name);
-    let names: Vec<String> = structures.iter().map(|its| called(&its[0].structure)).collect();
-    let heads = ["motion", "PGA, g", "PGV, m/s"].into_iter().chain(names.iter().map(String::as_str));
-    let heads: Vec<&str> = heads.collect();
-    let mut all = Vec::new();
-    let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_MOTIONS * MOST_STRUCTURES;
-    for item in tables.of(Kind::Responses).filter(is_short) {
+    let names = structures.iter().map(|its| called(&its[0].structure));
+    let heads = ["motion", "PGA, g", "PGV, m/s"].map(str::to_string).into_iter().chain(names);
+    let heads: Vec<String> = heads.collect();
+    let is_short = |item: &&Item| item.made.is_some() && item.rows <= MOST_RESPONSES;
+    let of_file = |item: &Item| {
         let responses: Vec<ResponseRow> = rows::read(&item.path)?;
-        let motions = by(&responses, |row| (&row.motion_id, row.pga_m_s2));
-        if motions.len() > MOST_MOTIONS || structures.len() > MOST_STRUCTURES {
-            continue;
-        }
         let line = |its: &Vec<&ResponseRow>| {
-            let mut row = vec![literal(&number::name(&its[0].motion_id))];
-            row.extend([its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak)));
-            row.extend(structures.iter().map(|of| {
+            let peaks = [its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak));
+            let demands = structures.iter().map(|of| {
                 let response = its.iter().find(|row| row.structure == of[0].structure.name);
                 response.map_or(String::new(), |of| match of.outcome {
                     OutcomeWord::NoRocking => "does not rock".to_string(),
                     OutcomeWord::SafeRocking => of.edp.map_or(String::new(), |edp| TWO_DIGITS.one(edp)),
                     OutcomeWord::Overturned => "overturns".to_string(),
                 })
-            }));
-            row
+            });
+            let motion = literal(&number::name(&its[0].motion_id));
+            std::iter::once(motion).chain(peaks).chain(demands).collect()
         };
-        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*";
-        all.push(Table::new(&heads, motions.iter().map(line).collect()).explained(caption));
-    }
-    Ok(all)
+        let rows = by(&responses, |row| (&row.motion_id, row.pga_m_s2)).iter().map(line).collect();
+        let caption = "Largest rotation under each motion, |*θ*|_{max} / *α*".to_string();
+        Ok(Table { caption, heads: heads.clone(), rows, ..Table::default() })
+    };
+    tables.of(Kind::Responses).filter(is_short).map(of_file).collect()
 }
 
 /// Median PGV, m/s, and dispersion by the paper's curve over IM5.
@@ -300,68 +270,45 @@ fn curve_parameters(tables: &Tables, cases: &Cases) -> (Interval<Option<f64>>, I
 }
 
 fn tests(tables: &Tables) -> anyhow::Result<Vec<Table>> {
-    let mut all = vec![outcomes(tables)?];
+    let all = [
+        table(
+            "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
+            tables.compared.iter().filter(|number| number.plane.is_none()),
+            "quantity structure suite published mean z ours ours_z",
+        ),
+        table(
+            "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
+            tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
+            "structure suite im_x im_y theta beta lambda n_events largest_difference status",
+        ),
+        table(
+            "Planes of the demand",
+            tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar),
+            "structure suite range_low range_high r2 beta n largest_difference status",
+        ),
+        table(
+            "Validation: events observed and expected",
+            tables.rows::<Validation>(Kind::Validation)?,
+            "structure suite event model n observed expected expected_error log_score calibration_slope",
+        ),
+    ];
     // A client's page has no curves and planes of the paper.
-    if tables.answers.is_empty() {
-        all.extend([
-            table(
-                "Further numbers of the paper, with *z* of each and of this run about the mean of seeds",
-                tables.compared.iter().filter(|number| number.plane.is_none()),
-                "quantity structure suite published mean z ours ours_z",
-            ),
-            table(
-                "Lognormal curves of overturning: *θ*, *β* and *λ* of Eqs. 20 and 24",
-                tables.fits.curves.iter().map(|fit| CurveLine::new(fit, 0.95)),
-                "structure suite im_x im_y theta beta lambda n_events largest_difference status",
-            ),
-            table(
-                "Planes of the demand",
-                tables.fits.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar),
-                "structure suite range_low range_high r2 beta n largest_difference status",
-            ),
-        ]);
-    }
-    all.push(table(
-        "Validation: events observed and expected",
-        tables.rows::<Validation>(Kind::Validation)?,
-        "structure suite event model n observed expected expected_error log_score calibration_slope",
-    ));
-    all.retain(|table| !table.rows.is_empty());
-    Ok(all)
+    let of_paper = if tables.answers.is_empty() { 0 } else { 3 };
+    Ok(all.into_iter().skip(of_paper).filter(|table| !table.rows.is_empty()).collect())
 }
 
-/// The claims of the paper: a table each, with a column for each suite and structure.
+/// The claims of the paper, a table each, where this run is compared with it.
 fn claims(tables: &Tables) -> Vec<Table> {
     let all = if tables.compared.is_empty() { Vec::new() } else { paper::claims() };
-    let shown = |row: &Claim| {
-        let [mean, low, high] =
-            [row.mean, row.low, row.high].map(|value| minus(number::significant(value, 3)));
-        let mark = match row.support {
-            Some(Support::Undecided) => " ?",
-            Some(Support::Against) => " \u{2717}",
-            Some(Support::For) | None => "",
-        };
-        format!("{mean} ({low} to {high}){mark}")
-    };
-    let column = |row: &Claim| title(&literal(&row.structure.replace('-', " ")), Some(&row.suite));
-    let of_claim = |rows: Vec<&Claim>| {
-        let columns: Vec<String> =
-            by(rows.iter().copied(), column).iter().map(|its| column(its[0])).collect();
-        let line = |its: Vec<&Claim>| {
-            let of = |head: &String| its.iter().find(|row| column(row) == *head).map(|row| shown(row));
-            let claimed = its.iter().map(|row| row.claimed.as_str()).max().unwrap_or_default();
-            let cells = columns.iter().map(|head| of(head).unwrap_or_default());
-            [&its[0].quantity, claimed].map(literal).into_iter().chain(cells).collect()
-        };
-        let lines = by(rows.iter().copied(), |row| &row.quantity).into_iter().map(line).collect();
+    let of_claim = |rows: &Vec<&Claim>| {
         let Claim { claim, verdict, figure, .. } = rows[0];
-        let heads = ["number", "claimed"].into_iter().chain(columns.iter().map(String::as_str));
-        Table::new(&heads.collect::<Vec<_>>(), lines).explained(&format!(
+        let caption = format!(
             "{claim}: {verdict}. Figure: {figure}. Means of twenty seeds with 95 % limits of one more seed; \
-             by those of the mean, ? is undecided and \u{2717} against the claim."
-        ))
+             support by those of the mean."
+        );
+        table(&caption, rows, "quantity structure suite claimed mean low high support")
     };
-    by(&all, |row| &row.claim).into_iter().map(of_claim).collect()
+    by(&all, |row| &row.claim).iter().map(of_claim).collect()
 }
 
 fn files(tables: &Tables) -> Table {

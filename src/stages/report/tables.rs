@@ -5,7 +5,6 @@ use std::path::{Path, PathBuf};
 
 use rockfrag_core::fragility::{Calibration, Cases, Event, Measure, Predictors};
 use rockfrag_core::paper;
-use rockfrag_core::rocking::Outcome;
 use rockfrag_core::studies::comparison::Comparison;
 use strum::{EnumProperty, VariantArray};
 
@@ -26,52 +25,44 @@ use crate::table::writer::MOTIONS_IN_GROUP;
 /// The most responses that are drawn of a file.
 const MOST_TRACES: usize = 50;
 
-/// What a table holds, in words. Each has the stages that make it, and columns that tell it from others of
-/// the same stage, and from those of all stages where no footer says which; of those that are silent the page
-/// shows nothing of their own: others are made of them, or stand beside them.
+/// What a table holds, in words, and columns that tell it from those behind it. Answers for the motions of a
+/// table come before these motions, whose columns they keep.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::Display, strum::EnumProperty, strum::VariantArray)]
 #[strum(serialize_all = "snake_case")]
 pub enum Kind {
-    #[strum(props(
-        by = "synthesize-motions import-motions floor-motions",
-        columns = "acceleration_m_s2 dt_s"
-    ))]
-    Motions,
-    #[strum(serialize = "responses over time", props(by = "simulate", columns = "theta_over_alpha time_s"))]
-    Traces,
-    #[strum(props(by = "ida", columns = "outcome intensity scale", silent = true))]
-    Stripes,
-    #[strum(props(by = "simulate", columns = "outcome edp alpha_rad"))]
-    Responses,
-    #[strum(serialize = "overturning intensities")]
-    #[strum(props(by = "ida", columns = "capacity overturning_intensity", silent = true))]
-    Capacities,
-    #[strum(serialize = "distributions of overturning intensities")]
-    #[strum(props(by = "ida", columns = "theta beta n_safe"))]
-    CapacityFits,
-    #[strum(props(by = "evaluate", columns = "variant p_overturning", silent = true))]
+    #[strum(props(columns = "variant p_overturning"))]
     Variants,
-    #[strum(props(by = "evaluate", columns = "structure p_overturning"))]
+    #[strum(props(columns = "structure p_overturning"))]
     Answers,
-    #[strum(serialize = "probabilities under motions", props(by = "evaluate", columns = "p_ro"))]
+    #[strum(serialize = "probabilities under motions", props(columns = "p_ro"))]
     Probabilities,
-    #[strum(props(by = "fit-pex fit-pro", columns = "ln_s tau n_clusters", silent = true))]
+    #[strum(props(columns = "acceleration_m_s2 dt_s"))]
+    Motions,
+    #[strum(serialize = "responses over time", props(columns = "theta_over_alpha time_s"))]
+    Traces,
+    #[strum(props(columns = "outcome intensity scale"))]
+    Stripes,
+    #[strum(props(columns = "outcome edp alpha_rad"))]
+    Responses,
+    #[strum(serialize = "overturning intensities", props(columns = "capacity overturning_intensity"))]
+    Capacities,
+    #[strum(serialize = "distributions of overturning intensities", props(columns = "theta beta n_safe"))]
+    CapacityFits,
+    #[strum(props(columns = "ln_s tau n_clusters"))]
     Calibrations,
-    #[strum(serialize = "curves of overturning", props(by = "fit-pro", columns = "event coefficients auc"))]
+    #[strum(serialize = "curves of overturning", props(columns = "event coefficients auc"))]
     Curves,
-    #[strum(serialize = "regressions of the demand")]
-    #[strum(props(by = "fit-pex", columns = "model coefficients range_low"))]
+    #[strum(serialize = "regressions of the demand", props(columns = "model coefficients range_low"))]
     Planes,
-    #[strum(serialize = "parameters of fits")]
-    #[strum(props(by = "fit-pex fit-pro", columns = "parameter value standard_error", silent = true))]
+    #[strum(serialize = "parameters of fits", props(columns = "parameter value standard_error"))]
     Parameters,
-    #[strum(serialize = "numbers of the paper", props(by = "compare-paper", columns = "published ours"))]
+    #[strum(serialize = "numbers of the paper", props(columns = "published ours"))]
     Paper,
-    #[strum(serialize = "observed shares", props(by = "validate", columns = "predicted share"))]
+    #[strum(serialize = "observed shares", props(columns = "predicted share"))]
     Reliability,
-    #[strum(props(by = "validate", columns = "observed expected log_score"))]
+    #[strum(props(columns = "observed expected log_score"))]
     Validation,
-    #[strum(props(by = "sample-scenarios", columns = "scenario_id gamma", silent = true))]
+    #[strum(props(columns = "scenario_id gamma"))]
     Scenarios,
     #[strum(serialize = "another program's table")]
     Other,
@@ -90,12 +81,8 @@ impl Item {
     fn read(path: &Path) -> Result<Item, TableError> {
         let table = ParquetTable::open(path)?;
         let made = if path.is_dir() { None } else { Provenance::read(path)? };
-        let words = |kind: &Kind, of: &str| kind.get_str(of).unwrap_or_default().split(' ');
-        let is_it = |kind: &&Kind| {
-            let is_by = |made: &Provenance| words(kind, "by").any(|stage| stage == made.stage);
-            made.as_ref().is_none_or(is_by)
-                && words(kind, "columns").all(|name| table.schema().index_of(name).is_ok())
-        };
+        let has = |name: &str| table.schema().index_of(name).is_ok();
+        let is_it = |kind: &&Kind| kind.get_str("columns").is_some_and(|names| names.split(' ').all(has));
         let kind = Kind::VARIANTS.iter().copied().find(|kind| is_it(&kind)).unwrap_or(Kind::Other);
         Ok(Item { path: path.to_path_buf(), kind, rows: table.rows(), made, key: key_of(path)? })
     }
@@ -115,7 +102,7 @@ impl Item {
 #[derive(Default)]
 pub struct Tables {
     pub items: Vec<Item>,
-    /// Responses by suite and structure, those that overturn most first.
+    /// Responses by suite and structure.
     pub groups: Vec<Cases>,
     pub fits: Fits,
     pub compared: Vec<Comparison>,
@@ -156,10 +143,6 @@ impl Tables {
         let groups = tables.of(Kind::Responses).map(read).collect::<anyhow::Result<Vec<_>>>()?;
         tables.groups = groups.concat();
         tables.compared = tables.rows(Kind::Paper)?;
-        // The paper has the frame first.
-        if tables.groups.len() > 2 && tables.compared.is_empty() {
-            tables.groups.sort_by(|a, b| overturning(b).total_cmp(&overturning(a)));
-        }
         for item in &tables.items {
             match item.kind {
                 Kind::Answers => tables.answers.push(AnswerTable::read(&item.path, item.made.as_ref())?),
@@ -212,7 +195,7 @@ impl Tables {
             item.input(flag).is_some_and(|key| keys.peek().is_some() && keys.all(|other| *other != key))
         };
         let strangers = self.items.extract_if(.., is_stranger);
-        for item in strangers.filter(|item| item.kind.get_bool("silent") != Some(true)) {
+        for item in strangers {
             let what = made_of(&item).1;
             self.left_out.push(format!("{} is not shown: it belongs to other {what}.", item.name()));
         }
@@ -247,11 +230,6 @@ impl Tables {
         let some = parts().nth(middle).or_else(|| parts().next()).map(|part| part()).transpose()?;
         Ok(some.into_iter().flatten().next().map_or(Vec::new(), |some| some.motions))
     }
-}
-
-/// The share of the motions that overturn.
-fn overturning(cases: &Cases) -> f64 {
-    cases.count(Outcome::Overturned) as f64 / cases.all.len().max(1) as f64
 }
 
 /// A file; of a folder its tables, and folders of partitions in it.
