@@ -102,18 +102,17 @@ fn of_this_run(compared: &[Comparison], differences: &[String]) -> anyhow::Resul
 
 /// What the fits have in place of the paper's structures.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let fitted = |of: &DemandFit| [of.p_rad_s, of.alpha_rad, of.eta];
-    let difference = |Structure { name, p_rad_s, alpha_rad, eta, .. }: Structure| {
-        let papers = [p_rad_s, alpha_rad, eta];
-        if demand.iter().any(|fit| fitted(fit) == papers) {
+    let difference = |structure: Structure| {
+        let (name, papers) = (&structure.name, structure.parameters());
+        if demand.iter().any(|fit| fit.structure.parameters() == papers) {
             return None;
         }
-        let Some(named) = demand.iter().find(|fit| fit.structure == name) else {
+        let Some(named) = demand.iter().find(|fit| fit.structure.name == *name) else {
             return Some(format!("no fits of its {name}"));
         };
         let printed =
             |value: f64| if OTHER_ALPHA.contains(&value) { " (also printed in the paper)" } else { "" };
-        let others = fitted(named).into_iter().zip(papers).zip(["p", "alpha", "eta"]);
+        let others = named.structure.parameters().into_iter().zip(papers).zip(["p", "alpha", "eta"]);
         let others = others
             .filter(|((value, papers), _)| value != papers)
             .map(|((value, papers), of)| format!("{of} {value}{}, not {papers}", printed(value)));

@@ -7,8 +7,9 @@ use crate::plausibility::FREQUENCIES_RAD_S;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Structure {
+    #[serde(rename = "structure")]
     pub name: String,
     pub p_rad_s: f64,
     pub alpha_rad: f64,
@@ -16,6 +17,7 @@ pub struct Structure {
     pub eta: f64,
     /// Rebound from a wall behind it, the ratio of the angular velocities after and before the impact: of the
     /// surface's probabilities alone, since solvers rock it to both sides.
+    #[serde(skip)]
     pub rebound: Option<f64>,
 }
 
@@ -94,9 +96,13 @@ impl Structure {
 
     /// Whether p, alpha and eta are those of another structure, each within 1 %.
     pub fn is_like(&self, other: &Structure) -> bool {
-        [(self.p_rad_s, other.p_rad_s), (self.alpha_rad, other.alpha_rad), (self.eta, other.eta)]
-            .into_iter()
-            .all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+        let mut both = self.parameters().into_iter().zip(other.parameters());
+        both.all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+    }
+
+    /// p, alpha and eta.
+    pub fn parameters(&self) -> [f64; 3] {
+        [self.p_rad_s, self.alpha_rad, self.eta]
     }
 
     /// Returns the diagonal (m) of the solid rectangular block that has this p.

@@ -196,6 +196,7 @@ fn cell(row: &Value, field: &str) -> String {
             (Some(count), _) => number::count(count as usize),
             (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
         },
+        Value::Object(part) if part.contains_key(field) => cell(&row[field], field),
         Value::Object(_) => {
             let value: Option<Interval<Option<f64>>> = serde_json::from_value(row[field].clone()).ok();
             value.map_or(String::new(), |value| TWO_DIGITS.both(value, ""))
@@ -275,7 +276,7 @@ fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
             let mut row = vec![literal(&number::name(&its[0].motion_id))];
             row.extend([its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak)));
             row.extend(structures.iter().map(|of| {
-                let response = its.iter().find(|row| row.structure == of[0].structure.name);
+                let response = its.iter().find(|row| row.structure.name == of[0].structure.name);
                 response.map_or(String::new(), |of| match of.outcome {
                     OutcomeWord::NoRocking => "does not rock".to_string(),
                     OutcomeWord::SafeRocking => of.edp.map_or(String::new(), |edp| TWO_DIGITS.one(edp)),
