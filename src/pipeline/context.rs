@@ -96,8 +96,8 @@ fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
 pub struct Context {
     pub common: Common,
     pub plan: Plan,
-    warnings: Mutex<Warnings>,
-    readings: Mutex<Vec<Reading>>,
+    /// What is planned, with warnings, and how files of people were read, by now.
+    made: Mutex<Provenance>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
     written: Mutex<Vec<PendingFile>>,
     /// Files that go when these get their names.
@@ -106,23 +106,21 @@ pub struct Context {
 
 impl Context {
     pub fn new(common: &Common, plan: Plan) -> Context {
-        Context { common: common.clone(), plan, ..Context::default() }
+        Context { common: common.clone(), made: Mutex::new(plan.made.clone()), plan, ..Context::default() }
     }
 
     pub fn warn(&self, warnings: Warnings) {
-        locked(&self.warnings).extend(warnings);
+        locked(&self.made).warnings.extend(warnings);
     }
 
     /// Keeps how files of people were read, and doubts about what they say.
     pub fn tell(&self, warnings: Warnings, readings: Vec<Reading>) {
         self.warn(warnings);
-        locked(&self.readings).extend(readings);
+        locked(&self.made).readings.extend(readings);
     }
 
-    /// What is planned, with what is known by now.
     pub fn made(&self, summary: &str) -> Provenance {
-        let (warnings, readings) = (locked(&self.warnings).clone(), locked(&self.readings).clone());
-        Provenance { summary: summary.to_string(), warnings, readings, ..self.plan.made.clone() }
+        Provenance { summary: summary.to_string(), ..locked(&self.made).clone() }
     }
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {

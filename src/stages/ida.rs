@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
+use rockfrag_core::fragility::{Cluster, Group, KnownCapacity, fit_capacities};
 use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
     Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
@@ -146,7 +146,8 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let groups = frame::groups(scanned.iter().map(|case| case.capacity.group()))?;
+        let capacities = scanned.iter().map(|case| &case.capacity);
+        let groups = frame::groups(capacities.map(|of| Group::of(&of.suite, &of.structure)))?;
         let groups = groups.iter().map(|rows| rows.iter().map(|&row| &scanned[row]).collect::<Vec<_>>());
         let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));

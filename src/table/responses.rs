@@ -1,7 +1,6 @@
 //! The outputs of simulate and ida: responses and capacities, one row for each motion and structure, traces and
 //! distributions of capacities.
 
-use rockfrag_core::fragility::Group;
 use rockfrag_core::motion::IntensityMeasures;
 use rockfrag_core::rocking::{Capacity, Outcome, SolverEvent, Structure};
 use rockfrag_core::spelling::unknown_word;
@@ -139,22 +138,4 @@ pub struct Stripe {
     pub structure: String,
     pub intensity: f64,
     pub outcome: OutcomeWord,
-}
-
-impl CapacityRow {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
-}
-
-impl CapacityFitRow {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
-}
-
-impl Stripe {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
 }

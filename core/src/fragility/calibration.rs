@@ -82,7 +82,7 @@ const LIKE: f64 = 1.2;
 
 impl Calibration {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.

@@ -46,6 +46,12 @@ pub struct Group<'a> {
     pub structure: &'a str,
 }
 
+impl<'a> Group<'a> {
+    pub fn of(suite: &'a Option<String>, structure: &'a str) -> Group<'a> {
+        Group { suite: suite.as_deref(), structure }
+    }
+}
+
 /// What motions share, so that responses to them may depend on each other.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Cluster {
@@ -127,7 +133,7 @@ impl Cases {
     }
 
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn count(&self, outcome: Outcome) -> usize {

@@ -186,7 +186,7 @@ pub struct DemandFit {
 
 impl DemandFit {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn predictors(&self) -> Predictors {

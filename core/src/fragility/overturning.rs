@@ -153,7 +153,7 @@ pub struct CurveFit {
 
 impl CurveFit {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn predictors(&self) -> Predictors {

@@ -1,9 +1,6 @@
 //! Rocking structures: p, alpha and eta, given or computed from dimensions (section 2.2.1).
 
-use std::f64::consts::FRAC_PI_2;
-use std::ops::RangeInclusive;
-
-use crate::plausibility::FREQUENCIES_RAD_S;
+use crate::plausibility::range_of_column;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
@@ -21,10 +18,6 @@ pub struct Structure {
     pub rebound: Option<f64>,
 }
 
-/// Accepted slendernesses, rad, and coefficients of restitution.
-const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
-const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
-
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
 pub struct StructureError {
@@ -38,12 +31,9 @@ impl Structure {
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
-        let accepted = [
-            ("p", p_rad_s, FREQUENCIES_RAD_S, "a frequency parameter above 0 rad/s, from 0.001 to 100"),
-            ("alpha", alpha_rad, SLENDERNESSES_RAD, "a slenderness between 0 and pi/2 rad, of 1e-6 or more"),
-            ("eta", eta, RESTITUTIONS, "a coefficient of restitution above 0 and up to 1"),
-        ];
-        for (parameter, value, range, expected) in accepted {
+        let given = [("p", "p_rad_s", p_rad_s), ("alpha", "alpha_rad", alpha_rad), ("eta", "eta", eta)];
+        for (parameter, column, value) in given {
+            let (range, expected) = range_of_column(column);
             if !range.contains(&value) {
                 return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }

@@ -1,6 +1,6 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, method, tests and files.
 
-use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
+use rockfrag_core::fragility::{Cases, DemandModel, Group, Measure, Predictors};
 use rockfrag_core::paper::{self, Claim, Support};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
@@ -242,7 +242,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
-        let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
+        let capacity = capacities.iter().find(|fit| Group::of(&fit.suite, &fit.structure) == cases.group());
         let by_curve = || curve_parameters(tables, cases);
         let (theta, beta) = capacity.map_or_else(by_curve, |fit| (fit.theta, fit.beta));
         let all = cases.all.len();
