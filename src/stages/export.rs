@@ -21,7 +21,7 @@ use crate::inputs::Reader;
 use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, number as parsed};
+use crate::pipeline::options::number as parsed;
 use crate::pipeline::paths::Read;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
@@ -68,10 +68,6 @@ const STEPS: usize = 99;
 const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &ModelArgs::RULES, &[StructureArgs::COLUMNS]].concat()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![self.model.input(), self.structures.input()]
     }
@@ -139,6 +135,7 @@ impl Export {
     /// The objects that have an answer, one or more.
     fn objects(&self, reader: &mut Reader) -> anyhow::Result<Vec<Object>> {
         let all = self.structures.objects(&self.place, reader)?;
+        reader.expect_used()?;
         let (objects, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|of| of.sides().is_ok());
         if let ([], [other, ..]) = (&objects[..], &others[..]) {
             other.sides().map_err(|reason| named(other, &reason))?;

@@ -21,7 +21,7 @@ use super::shared::fits::text;
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, number};
+use crate::pipeline::options::number;
 use crate::pipeline::paths::{Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
@@ -102,10 +102,6 @@ struct SingleRecordIda<'a> {
 }
 
 impl Stage for Ida {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS]].concat()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&self.input]), self.structures.input()]
     }

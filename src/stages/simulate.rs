@@ -16,7 +16,7 @@ use super::shared::objects::StructureArgs;
 use crate::number::{self, counted, name};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, first_lines};
+use crate::pipeline::options::first_lines;
 use crate::pipeline::paths::{Read, out_of_partition, part};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
@@ -60,11 +60,6 @@ pub struct Simulate {
 }
 
 impl Stage for Simulate {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS, Rule::Either(&["partition"], &["trace"])]]
-            .concat()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::partition("in", &self.input, self.partition), self.structures.input()]
     }

@@ -16,7 +16,6 @@ use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::Rule;
 use crate::pipeline::paths::{Read, part};
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
@@ -41,10 +40,6 @@ const COLUMNS: &str = "suite structure event model n observed expected expected_
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
-    fn rules() -> Vec<Rule> {
-        ModelArgs::RULES.to_vec()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![Read::new("in", [&self.input]), self.fits.input()]
     }

@@ -31,7 +31,7 @@ use crate::chart::{DPI, png, svg};
 use crate::document::{Document, PageArgs, sheet, workbook};
 use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, given, number};
+use crate::pipeline::options::{given, number};
 use crate::pipeline::paths::Read;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
@@ -110,27 +110,10 @@ pub struct Evaluate {
     place: Place,
 }
 
-/// Options of a hazard.
-const SITE: [&str; 4] = ["hazard", "effective-years", "ratio", "target"];
-const RULES: [Rule; 8] = [
-    Rule::Either(&["pga", "pgv"], &SITE),
-    Rule::Either(&["in"], &SITE),
-    Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
-    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "variants"]),
-    Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
-    Rule::Needs(&["effective-years", "years", "target", "variants"], &["hazard"]),
-    Rule::Needs(&["columns", "ignore"], &["hazard", "structures", "in"]),
-    Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
-];
-
 /// Endings of files of rows and, from the fifth on, of pages and figures.
 const ENDINGS: [&str; 7] = ["parquet", "csv", "json", "xlsx", "html", "svg", "png"];
 
 impl Stage for Evaluate {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &ModelArgs::RULES, &RULES].concat()
-    }
-
     fn inputs(&self) -> Vec<Read> {
         vec![
             Read::new("in", self.input.iter()),

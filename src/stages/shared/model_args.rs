@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::listed;
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{Rule, given};
+use crate::pipeline::options::given;
 use crate::pipeline::paths::Read;
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
@@ -67,8 +67,6 @@ pub struct Models {
 }
 
 impl ModelArgs {
-    pub const RULES: [Rule; 1] = [Rule::Needs(&["name"], &["fits"])];
-
     /// Checks that there are fits where these alone predict.
     pub fn check(&self) -> anyhow::Result<()> {
         let has_fits = self.model != ModelName::Paper || self.fits.is_some();
