@@ -11,7 +11,7 @@ use serde_json::Value;
 use super::Stage;
 use super::context::{Common, Context};
 use super::options::UsageError;
-use super::paths::Read;
+use super::paths::{Files, Read};
 use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::file::tables;
@@ -96,8 +96,9 @@ impl Call {
     /// Plans the call. `planned` has the keys of files not yet written.
     pub fn plan(&self, planned: &Planned) -> Result<Plan, TableError> {
         let made = Provenance::new(&self.name, self.options.clone());
-        let mut plan = Plan { made, outputs: self.stage.outputs() };
-        for read in self.stage.inputs() {
+        let Files { read, written, .. } = self.stage.files();
+        let mut plan = Plan { made, outputs: written };
+        for read in read {
             let files = files(&read, &plan.outputs, planned)?;
             let inputs = files.iter().zip(names_below(&files)).map(|(path, name)| {
                 match planned.get(&resolved(path)).cloned() {

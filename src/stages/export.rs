@@ -22,7 +22,7 @@ use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number as parsed;
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::Files;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -68,21 +68,16 @@ const STEPS: usize = 99;
 const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
-    fn inputs(&self) -> Vec<Read> {
-        vec![self.model.input(), self.structures.input()]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        let out = match self.out.extension() {
-            None => self.out.with_extension(self.endings()[0]),
-            Some(_) => self.out.to_path_buf(),
-        };
-        let json = (self.to == Program::Pelicun).then(|| out.with_extension("json"));
-        json.into_iter().chain([out]).collect()
-    }
-
-    fn endings(&self) -> &[&'static str] {
-        if self.to == Program::Pelicun { &["csv"] } else { &["xml"] }
+    fn files(&self) -> Files {
+        let is_pelicun = self.to == Program::Pelicun;
+        let endings = if is_pelicun { &["csv"] } else { &["xml"] };
+        let mut out = self.out.to_path_buf();
+        if out.extension().is_none() {
+            out.set_extension(endings[0]);
+        }
+        let json = is_pelicun.then(|| out.with_extension("json"));
+        let read = vec![self.model.input(), self.structures.input()];
+        Files { read, written: json.into_iter().chain([out]).collect(), endings }
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -115,7 +110,7 @@ impl Stage for Export {
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
             functions,
         };
-        let files = self.outputs();
+        let files = &context.plan.outputs;
         let contents = match self.to {
             Program::OpenQuake => vec![discrete(&model)],
             Program::Pelicun => {

@@ -22,7 +22,7 @@ use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Read, part};
+use crate::pipeline::paths::{Files, Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
@@ -102,12 +102,10 @@ struct SingleRecordIda<'a> {
 }
 
 impl Stage for Ida {
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&self.input]), self.structures.input()]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "stripes"), part(&self.out, "fragility"), self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let beside = ["stripes", "fragility"].map(|name| part(&self.out, name));
+        let read = [Read::new("in", [&self.input]), self.structures.input()];
+        Files::tables(read, beside.iter().chain([&self.out]))
     }
 
     fn check(&self) -> anyhow::Result<()> {

@@ -30,7 +30,7 @@ use serde_json::Value;
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Common;
 use crate::pipeline::options::{Given, Rule, defaults, is_path, merge, name_of};
-use crate::pipeline::paths::is_word;
+use crate::pipeline::paths::{Files, is_word};
 use crate::pipeline::{Stage, UsageError};
 
 /// What options of any stage exclude and need.
@@ -121,12 +121,12 @@ impl StageKind {
         };
         let options = options.into_iter().filter_map(|(option, value)| Some((option, stated(value)?)));
         let options = options.filter(|(option, value)| !is_file(option, value)).collect();
-        let (outputs, endings) = (stage.outputs(), stage.endings());
+        let Files { written, endings, .. } = stage.files();
         let is_known = |ending: &OsStr| endings.iter().any(|known| ending == *known);
         // Tables go to no pipe.
         let is_other =
             |out: &&PathBuf| out.starts_with("-") || !out.extension().map_or(endings.len() == 1, is_known);
-        if let Some(out) = outputs.last().filter(is_other) {
+        if let Some(out) = written.last().filter(is_other) {
             let (out, endings) = (out.display(), endings.join(", ."));
             let problem = format!("--out is {out}; expected a name that ends in .{endings}");
             return Err(UsageError::because(problem));

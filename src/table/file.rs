@@ -277,11 +277,7 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
         return Err(TableError::table(path, "not a Parquet file; expected Parquet"));
     }
     let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
-    let metadata = guarded(path, || ArrowReaderMetadata::load(&file, options))?;
-    match metadata.metadata().row_groups().iter().find(|group| group.num_rows() < 0) {
-        Some(group) => Err(TableError::parquet(path, format!("a row group of {} rows", group.num_rows()))),
-        None => Ok(metadata),
-    }
+    guarded(path, || ArrowReaderMetadata::load(&file, options))
 }
 
 /// Returns the files and folders in a folder that are not hidden, in the order of their names.

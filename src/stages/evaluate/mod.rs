@@ -32,7 +32,7 @@ use crate::document::{Document, PageArgs, sheet, workbook};
 use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{given, number};
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::{Files, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
 
@@ -114,26 +114,16 @@ pub struct Evaluate {
 const ENDINGS: [&str; 7] = ["parquet", "csv", "json", "xlsx", "html", "svg", "png"];
 
 impl Stage for Evaluate {
-    fn inputs(&self) -> Vec<Read> {
-        vec![
-            Read::new("in", self.input.iter()),
-            Read::new("hazard", self.hazard.iter()),
-            self.model.input(),
-            self.structures.input(),
-        ]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn files(&self) -> Files {
+        let (table, hazard) = (Read::new("in", &self.input), Read::new("hazard", &self.hazard));
+        let read = vec![table, hazard, self.model.input(), self.structures.input()];
         let beside = || Some(self.input.as_ref()?.with_file_name("evaluated.parquet"));
         let out = self.out.clone().or_else(beside);
         let is_table = |out: &&PathBuf| self.variants && ending(out) == "parquet";
         let variants = out.as_ref().filter(is_table).map(|out| variants_beside(out));
-        variants.into_iter().chain(out).collect()
-    }
-
-    fn endings(&self) -> &[&'static str] {
         // A page or figure is of objects.
-        if self.input.is_some() { &ENDINGS[..4] } else { &ENDINGS }
+        let endings = if self.input.is_some() { &ENDINGS[..4] } else { &ENDINGS };
+        Files { read, written: variants.into_iter().chain(out).collect(), endings }
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -182,7 +172,7 @@ impl Stage for Evaluate {
         }
         let document = Document::of_answers(&table).signed(&self.signed);
         let text = document.text(self.out.as_deref());
-        if let [beside, _] = &self.outputs()[..] {
+        if let [beside, _] = &context.plan.outputs[..] {
             let variants: Vec<Answer> = table.details.iter().flat_map(|of| of.variants.clone()).collect();
             context.write_batches(beside, &[answer::variant_table(&variants, &question)?], &text)?;
         }
@@ -274,10 +264,10 @@ impl Evaluate {
         context: &Context,
         document: &Document,
     ) -> anyhow::Result<()> {
-        let Some(out) = self.outputs().pop() else { return Ok(()) };
+        let Some(out) = context.plan.outputs.last() else { return Ok(()) };
         let sheet = || sheet.map_or_else(|| framed(rows), |sheet| Ok(sheet.clone()));
-        let content = match &*ending(&out) {
-            "parquet" => return context.write_batches(&out, rows, text),
+        let content = match &*ending(out) {
+            "parquet" => return context.write_batches(out, rows, text),
             "csv" => frame::show(&sheet()?, Format::Csv)?.into_bytes(),
             "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
             "xlsx" => workbook(&sheet()?)?,
@@ -285,7 +275,7 @@ impl Evaluate {
             "svg" => svg(&document.main_figure()?).into_bytes(),
             _ => png(&svg(&document.main_figure()?), DPI)?,
         };
-        context.write_file(&out, &content)
+        context.write_file(out, &content)
     }
 }
 

@@ -24,7 +24,7 @@ use crate::inputs::About;
 use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods, steps};
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::{Files, Read};
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::keys::resolved;
@@ -104,14 +104,9 @@ fn unit<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Unit>, D::E
 }
 
 impl Stage for ImportMotions {
-    fn inputs(&self) -> Vec<Read> {
-        let records = Read::new("files", self.files.iter());
-        let about = Read::new("about", self.about.iter());
-        vec![Read { whole_folders: true, ..records }, about]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let records = Read { whole_folders: true, ..Read::new("files", &self.files) };
+        Files::tables([records, Read::new("about", &self.about)], [&self.out])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
