@@ -81,7 +81,6 @@ impl Stage for Export {
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.model.check()?;
         self.objects(&mut self.structures.list.reader()).map(|_| ())
     }
 

@@ -41,7 +41,7 @@ pub const RULES: [Rule; 16] = [
     Rule::Either(&["beam-mass-ratio"], &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"]),
     Rule::Either(&["eta"], &["base"]),
     Rule::Needs(&["ground-floor", "storeys", "building"], &["structures"]),
-    Rule::Needs(&["name"], &["fits"]),
+    Rule::Needs(&["name", "model=paper"], &["fits"]),
     Rule::Either(&["partition"], &["trace"]),
     Rule::Either(&["pga", "pgv"], &OF_HAZARD),
     Rule::Either(&["in"], &OF_HAZARD),

@@ -45,10 +45,6 @@ impl Stage for Validate {
         Files::tables(read, [&part(&self.out, "reliability"), &self.out])
     }
 
-    fn check(&self) -> anyhow::Result<()> {
-        self.fits.check()
-    }
-
     fn run(&self, context: &Context) -> anyhow::Result<String> {
         let groups = responses::read(&self.input, &MotionColumns::default())?;
         let mut models = self.fits.read()?;

@@ -67,13 +67,6 @@ pub struct Models {
 }
 
 impl ModelArgs {
-    /// Checks that there are fits where these alone predict.
-    pub fn check(&self) -> anyhow::Result<()> {
-        let has_fits = self.model != ModelName::Paper || self.fits.is_some();
-        ensure!(has_fits, UsageError::because("model is paper; expected its fits, too: --fits"));
-        Ok(())
-    }
-
     pub fn input(&self) -> Read {
         const FILES: [&str; 4] =
             ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
