@@ -16,7 +16,7 @@ use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::file::tables;
 use crate::table::frame::Format;
-use crate::table::keys::{files_below, names_below, read_file, resolved};
+use crate::table::keys::{files_below, key_of_file, names_below, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 
 /// Keys of files that other calls of a run make, by [`resolved`] path.
@@ -101,14 +101,11 @@ impl Call {
         for read in read {
             let files = files(&read, &plan.outputs, planned)?;
             let inputs = files.iter().zip(names_below(&files)).map(|(path, name)| {
-                match planned.get(&resolved(path)).cloned() {
-                    // Another run may have replaced it already: its time says nothing.
-                    Some(key) => Ok(InputFile { name, key, path: path.clone(), ..InputFile::default() }),
-                    None => read_file(path, name),
-                }
+                let key = planned.get(&resolved(path)).cloned().map_or_else(|| key_of_file(path), Ok)?;
+                Ok(InputFile { name, key, path: path.clone() })
             });
             if !files.is_empty() {
-                plan.made.inputs.insert(read.flag.to_string(), inputs.collect::<Result<_, _>>()?);
+                plan.made.inputs.insert(read.flag.to_string(), inputs.collect::<Result<_, TableError>>()?);
             }
         }
         Ok(plan)

@@ -16,7 +16,7 @@ use super::call::Plan;
 use super::options::{UsageError, number};
 use crate::inputs::Reading;
 use crate::table::TableError;
-use crate::table::keys::{modified_at, read_file};
+use crate::table::keys::key_of_file;
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{PendingFile, TableWriter, persist};
@@ -162,8 +162,8 @@ impl Context {
 
     /// Checks that no input was changed since the plan was made.
     pub fn expect_unchanged(&self) -> Result<(), TableError> {
-        for InputFile { path, key, modified, .. } in self.plan.made.inputs.values().flatten() {
-            if modified_at(path) != *modified && read_file(path, String::new())?.key != *key {
+        for InputFile { path, key, .. } in self.plan.made.inputs.values().flatten() {
+            if key_of_file(path)? != *key {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }
