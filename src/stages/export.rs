@@ -7,7 +7,7 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{LimitStates, Peak};
 use rockfrag_core::hazard::{GenericSites, strongest, unusual_motions};
 use rockfrag_core::object::{Object, Place, RockingObject};
-use rockfrag_core::plausibility::MAGNITUDES;
+use rockfrag_core::plausibility::GIVEN_MAGNITUDE;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::warning::Warning;
@@ -21,7 +21,7 @@ use crate::inputs::Reader;
 use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::number as parsed;
+use crate::pipeline::options::given;
 use crate::pipeline::paths::Files;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
@@ -38,7 +38,7 @@ pub struct Export {
     #[arg(long, value_name = "PEAK")]
     over: Option<Peak>,
     /// Moment magnitude of the motions [default: that of motions that overturn]
-    #[arg(long, value_name = "MW", value_parser = parsed(MAGNITUDES, "a moment magnitude"))]
+    #[arg(long, value_name = "MW", value_parser = given(GIVEN_MAGNITUDE))]
     magnitude: Option<f64>,
     /// File to write, without an ending with .xml or, for pelicun, .csv
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "fragility")]
