@@ -277,7 +277,11 @@ pub fn metadata(path: &Path) -> Result<ArrowReaderMetadata, TableError> {
         return Err(TableError::table(path, "not a Parquet file; expected Parquet"));
     }
     let options = ArrowReaderOptions::new().with_skip_arrow_metadata(true);
-    guarded(path, || ArrowReaderMetadata::load(&file, options))
+    let metadata = guarded(path, || ArrowReaderMetadata::load(&file, options))?;
+    match metadata.metadata().row_groups().iter().find(|group| group.num_rows() < 0) {
+        Some(group) => Err(TableError::parquet(path, format!("a row group of {} rows", group.num_rows()))),
+        None => Ok(metadata),
+    }
 }
 
 /// Returns the files and folders in a folder that are not hidden, in the order of their names.
