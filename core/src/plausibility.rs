@@ -1,6 +1,7 @@
 //! What structures and ground motions can be: the range of each quantity with its source, for options, tables
 //! and records alike.
 
+use std::f64::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
 use crate::number::{period, significant};
@@ -65,7 +66,10 @@ pub const LEAST_P_RAD_S: f64 = 0.9;
 pub const LEAST_ALPHA_RAD: f64 = 0.04;
 
 /// Columns with a range of their own, and what is expected; of motions by what solver and scaling allow.
-const COLUMNS: [(&[&str], RangeInclusive<f64>, &str); 13] = [
+const COLUMNS: [(&[&str], RangeInclusive<f64>, &str); 16] = [
+    (&["p_rad_s"], FREQUENCIES_RAD_S, "a frequency parameter above 0 rad/s, from 0.001 to 100"),
+    (&["alpha_rad"], 1e-6..=FRAC_PI_2.next_down(), "a slenderness between 0 and pi/2 rad, of 1e-6 or more"),
+    (&["eta"], f64::MIN_POSITIVE..=1.0, "a coefficient of restitution above 0 and up to 1"),
     (&["mw"], MAGNITUDES, "a moment magnitude, from 1 to 9.9"),
     (&["re_km"], DISTANCES_KM, "a distance from the rupture in km, from 0 to 1000"),
     (&["vp_m_s"], 0.0..=20.0, "the amplitude of a velocity pulse in m/s, from 0 to 20"),

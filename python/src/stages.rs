@@ -61,7 +61,7 @@ pub fn call(
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, common: &Common, made: &mut Planned) -> anyhow::Result<Made> {
     let made = call.run(common, made)?.made;
-    Ok((call.name.clone(), call.stage.outputs(), made.summary, made.warnings.lines()))
+    Ok((call.name.clone(), call.stage.files().written, made.summary, made.warnings.lines()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

@@ -43,7 +43,7 @@ pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyho
         }
         let call = stage.call(&section, &Given::new(), &out);
         let call = call.with_context(|| format!("{}: {name}", pipeline.display()))?;
-        for path in call.stage.outputs() {
+        for path in call.stage.files().written {
             if let Some(first) = written.insert(resolved(&path), name.to_string()) {
                 return refuse(format!("{first} and {name} both write {}", path.display()));
             }
@@ -51,7 +51,7 @@ pub fn of_run(pipeline: &Path, out: Option<PathBuf>, seed: Option<u64>) -> anyho
         calls.push(call);
     }
     for call in &calls {
-        let read = call.stage.inputs().into_iter().flat_map(|read| read.paths);
+        let read = call.stage.files().read.into_iter().flat_map(|read| read.paths);
         for path in read.map(|path| split_sheet(&path).0).filter(|path| is_view(path)) {
             if let Some(writer) = written.get(&resolved(&path)) {
                 return refuse(format!("{writer} writes {}, which {} reads", path.display(), call.name));

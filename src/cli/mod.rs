@@ -276,7 +276,7 @@ fn dry_run(calls: &[Call], common: &Common) -> anyhow::Result<(String, bool)> {
         for option in call.options.iter().flat_map(|(name, value)| on_command_line(name, value)) {
             writeln!(text, "    {}", shown(&option, LONGEST_TEXT))?;
         }
-        for read in call.stage.inputs().iter().filter(|read| !read.paths.is_empty()) {
+        for read in call.stage.files().read.iter().filter(|read| !read.paths.is_empty()) {
             let paths: Vec<String> = read.paths.iter().map(|path| path.display().to_string()).collect();
             writeln!(text, "    --{} {}", read.flag, shown(&paths.join(" "), LONGEST_TEXT))?;
         }

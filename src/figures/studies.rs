@@ -1,6 +1,6 @@
 //! Incremental dynamic analysis and validation.
 
-use rockfrag_core::fragility::p_overturning;
+use rockfrag_core::fragility::{Group, p_overturning};
 use rockfrag_core::rocking::CapacityStatus;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
@@ -27,12 +27,13 @@ pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) ->
 }
 
 fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
-    let its = stripes.iter().filter(|stripe| stripe.group() == fit.group());
+    let group = Group::of(&fit.suite, &fit.structure);
+    let its = stripes.iter().filter(|of| Group::of(&of.suite, &of.structure) == group);
     let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
     let cases: Vec<(f64, bool)> = its.collect();
     let shares = observed_shares(&cases, 1, |x| levels.partition_point(|level| *level < x));
     let every = shares.len().div_ceil(LEVELS).max(1);
-    let its = rows.iter().filter(|row| row.group() == fit.group());
+    let its = rows.iter().filter(|of| Group::of(&of.suite, &of.structure) == group);
     let capacities = its.filter_map(|row| match row.found.status {
         CapacityStatus::Below => row.found.overturning.or(levels.first().copied()),
         _ => row.found.overturning,

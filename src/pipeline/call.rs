@@ -11,12 +11,12 @@ use serde_json::Value;
 use super::Stage;
 use super::context::{Common, Context};
 use super::options::UsageError;
-use super::paths::Read;
+use super::paths::{Files, Read};
 use crate::source::{is_pipe, split_sheet};
 use crate::table::TableError;
 use crate::table::file::tables;
 use crate::table::frame::Format;
-use crate::table::keys::{files_below, names_below, read_file, resolved};
+use crate::table::keys::{files_below, key_of_file, names_below, resolved};
 use crate::table::provenance::{InputFile, Provenance};
 
 /// Keys of files that other calls of a run make, by [`resolved`] path.
@@ -96,18 +96,16 @@ impl Call {
     /// Plans the call. `planned` has the keys of files not yet written.
     pub fn plan(&self, planned: &Planned) -> Result<Plan, TableError> {
         let made = Provenance::new(&self.name, self.options.clone());
-        let mut plan = Plan { made, outputs: self.stage.outputs() };
-        for read in self.stage.inputs() {
+        let Files { read, written, .. } = self.stage.files();
+        let mut plan = Plan { made, outputs: written };
+        for read in read {
             let files = files(&read, &plan.outputs, planned)?;
             let inputs = files.iter().zip(names_below(&files)).map(|(path, name)| {
-                match planned.get(&resolved(path)).cloned() {
-                    // Another run may have replaced it already: its time says nothing.
-                    Some(key) => Ok(InputFile { name, key, path: path.clone(), ..InputFile::default() }),
-                    None => read_file(path, name),
-                }
+                let key = planned.get(&resolved(path)).cloned().map_or_else(|| key_of_file(path), Ok)?;
+                Ok(InputFile { name, key, path: path.clone() })
             });
             if !files.is_empty() {
-                plan.made.inputs.insert(read.flag.to_string(), inputs.collect::<Result<_, _>>()?);
+                plan.made.inputs.insert(read.flag.to_string(), inputs.collect::<Result<_, TableError>>()?);
             }
         }
         Ok(plan)

@@ -16,7 +16,7 @@ use super::call::Plan;
 use super::options::{UsageError, number};
 use crate::inputs::Reading;
 use crate::table::TableError;
-use crate::table::keys::{modified_at, read_file};
+use crate::table::keys::key_of_file;
 use crate::table::provenance::{InputFile, Provenance};
 use crate::table::rows::{self, Row};
 use crate::table::writer::{PendingFile, TableWriter, persist};
@@ -96,8 +96,8 @@ fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
 pub struct Context {
     pub common: Common,
     pub plan: Plan,
-    warnings: Mutex<Warnings>,
-    readings: Mutex<Vec<Reading>>,
+    /// What is planned, with warnings, and how files of people were read, by now.
+    made: Mutex<Provenance>,
     /// Files that have no name until the stage ends: one that fails leaves nothing.
     written: Mutex<Vec<PendingFile>>,
     /// Files that go when these get their names.
@@ -106,23 +106,21 @@ pub struct Context {
 
 impl Context {
     pub fn new(common: &Common, plan: Plan) -> Context {
-        Context { common: common.clone(), plan, ..Context::default() }
+        Context { common: common.clone(), made: Mutex::new(plan.made.clone()), plan, ..Context::default() }
     }
 
     pub fn warn(&self, warnings: Warnings) {
-        locked(&self.warnings).extend(warnings);
+        locked(&self.made).warnings.extend(warnings);
     }
 
     /// Keeps how files of people were read, and doubts about what they say.
     pub fn tell(&self, warnings: Warnings, readings: Vec<Reading>) {
         self.warn(warnings);
-        locked(&self.readings).extend(readings);
+        locked(&self.made).readings.extend(readings);
     }
 
-    /// What is planned, with what is known by now.
     pub fn made(&self, summary: &str) -> Provenance {
-        let (warnings, readings) = (locked(&self.warnings).clone(), locked(&self.readings).clone());
-        Provenance { summary: summary.to_string(), warnings, readings, ..self.plan.made.clone() }
+        Provenance { summary: summary.to_string(), ..locked(&self.made).clone() }
     }
 
     pub fn create(&self, path: &Path, schema: &SchemaRef) -> anyhow::Result<TableWriter> {
@@ -164,8 +162,8 @@ impl Context {
 
     /// Checks that no input was changed since the plan was made.
     pub fn expect_unchanged(&self) -> Result<(), TableError> {
-        for InputFile { path, key, modified, .. } in self.plan.made.inputs.values().flatten() {
-            if modified_at(path) != *modified && read_file(path, String::new())?.key != *key {
+        for InputFile { path, key, .. } in self.plan.made.inputs.values().flatten() {
+            if key_of_file(path)? != *key {
                 return Err(TableError::table(path, "changed by another run; run again"));
             }
         }

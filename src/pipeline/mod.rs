@@ -6,33 +6,15 @@ pub mod options;
 pub mod paths;
 pub mod stream;
 
-use std::path::PathBuf;
-
 use self::context::Context;
-use self::options::Rule;
 pub use self::options::UsageError;
-use self::paths::Read;
+use self::paths::Files;
 use crate::table::frame::Format;
 
 /// A struct of options, which serde makes of what is given, and a function that runs it. As serde writes
 /// them, without the paths, the options enter the key of what is made.
 pub trait Stage {
-    fn rules() -> Vec<Rule>
-    where
-        Self: Sized,
-    {
-        Vec::new()
-    }
-
-    fn inputs(&self) -> Vec<Read>;
-
-    /// Returns all files that it writes, the last one written last; none if it only prints.
-    fn outputs(&self) -> Vec<PathBuf>;
-
-    /// Returns how the name of its last output may end.
-    fn endings(&self) -> &[&'static str] {
-        &["parquet"]
-    }
+    fn files(&self) -> Files;
 
     /// Checks the options, before any stage of a run begins.
     fn check(&self) -> anyhow::Result<()> {

@@ -21,7 +21,7 @@ use crate::table::provenance::text_of;
 
 pub type Given = Map<String, Value>;
 
-/// What options of a stage exclude, and need.
+/// What options of a stage exclude, and need: by their names, or a name and the word that is given.
 #[derive(Debug, Clone, Copy)]
 pub enum Rule {
     /// Those of either side exclude those of the other.
@@ -31,7 +31,10 @@ pub enum Rule {
 }
 
 fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static str> {
-    let is_given = |option: &&str| given.get(*option).is_some_and(|value| *value != Value::Bool(false));
+    let is_given = |option: &&str| match option.split_once('=') {
+        Some((option, word)) => given.get(option).is_some_and(|value| value == word),
+        None => given.get(*option).is_some_and(|value| *value != Value::Bool(false)),
+    };
     options.iter().copied().find(is_given)
 }
 

@@ -14,6 +14,25 @@ pub fn is_word(option: &str, text: &str) -> bool {
     WORDS.iter().any(|(of, words)| *of == option && words.contains(&text))
 }
 
+/// The files of a call.
+pub struct Files {
+    pub read: Vec<Read>,
+    /// The last one is written last; none if the call only prints.
+    pub written: Vec<PathBuf>,
+    /// How the name of the last one may end.
+    pub endings: &'static [&'static str],
+}
+
+impl Files {
+    pub fn tables<P: AsRef<Path>>(
+        read: impl IntoIterator<Item = Read>,
+        written: impl IntoIterator<Item = P>,
+    ) -> Files {
+        let written = written.into_iter().map(|path| path.as_ref().to_path_buf()).collect();
+        Files { read: read.into_iter().collect(), written, endings: &["parquet"] }
+    }
+}
+
 #[derive(Debug, Clone, PartialEq)]
 pub struct Read {
     pub flag: &'static str,

@@ -15,7 +15,7 @@ use super::default_options;
 use crate::number::{aligned, fixed, significant};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::{Files, Read};
 use crate::table::frame;
 use crate::table::provenance::{Provenance, text_of};
 use crate::table::rows;
@@ -38,12 +38,8 @@ pub struct ComparePaper {
 }
 
 impl Stage for ComparePaper {
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("pex", [&self.pex]), Read::new("pro", [&self.pro])]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        Files::tables([Read::new("pex", [&self.pex]), Read::new("pro", [&self.pro])], [&self.out])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -102,18 +98,17 @@ fn of_this_run(compared: &[Comparison], differences: &[String]) -> anyhow::Resul
 
 /// What the fits have in place of the paper's structures.
 fn other_structures(demand: &[DemandFit]) -> Vec<String> {
-    let fitted = |of: &DemandFit| [of.p_rad_s, of.alpha_rad, of.eta];
-    let difference = |Structure { name, p_rad_s, alpha_rad, eta, .. }: Structure| {
-        let papers = [p_rad_s, alpha_rad, eta];
-        if demand.iter().any(|fit| fitted(fit) == papers) {
+    let difference = |structure: Structure| {
+        let (name, papers) = (&structure.name, structure.parameters());
+        if demand.iter().any(|fit| fit.structure.parameters() == papers) {
             return None;
         }
-        let Some(named) = demand.iter().find(|fit| fit.structure == name) else {
+        let Some(named) = demand.iter().find(|fit| fit.structure.name == *name) else {
             return Some(format!("no fits of its {name}"));
         };
         let printed =
             |value: f64| if OTHER_ALPHA.contains(&value) { " (also printed in the paper)" } else { "" };
-        let others = fitted(named).into_iter().zip(papers).zip(["p", "alpha", "eta"]);
+        let others = named.structure.parameters().into_iter().zip(papers).zip(["p", "alpha", "eta"]);
         let others = others
             .filter(|((value, papers), _)| value != papers)
             .map(|((value, papers), of)| format!("{of} {value}{}, not {papers}", printed(value)));
@@ -125,20 +120,7 @@ fn other_structures(demand: &[DemandFit]) -> Vec<String> {
 /// The stages of the paper, whose defaults are its set-up.
 const STAGES: [&str; 5] = ["sample-scenarios", "synthesize-motions", "simulate", "fit-pex", "fit-pro"];
 /// Options that do not change what is compared.
-const NEUTRAL: [&str; 12] = [
-    "all",
-    "confidence",
-    "housner",
-    "in",
-    "motions",
-    "pairs",
-    "partition",
-    "sa",
-    "seed",
-    "structure",
-    "structures",
-    "trace",
-];
+const NEUTRAL: &str = "all confidence housner in motions pairs partition sa seed structure structures trace";
 /// Options that may have more than the paper's.
 const LISTS: [&str; 2] = ["limit-state", "suite"];
 
@@ -154,7 +136,7 @@ fn other_options(fits: impl Iterator<Item = Provenance>) -> Vec<String> {
         let paper = default_options(stage);
         for stated in its {
             let flags: BTreeSet<&String> = stated.keys().chain(paper.keys()).collect();
-            for flag in flags.into_iter().filter(|flag| !NEUTRAL.contains(&flag.as_str())) {
+            for flag in flags.into_iter().filter(|flag| NEUTRAL.split(' ').all(|neutral| neutral != *flag)) {
                 let [now, then] = [stated.get(flag).cloned(), paper.get(flag).map(text_of)]
                     .map(|text| text.unwrap_or("none".into()))
                     .map(|text| text.replace(".0,", ",").trim_end_matches(".0").to_string());

@@ -7,7 +7,7 @@ use clap::ValueHint::FilePath;
 use rockfrag_core::fragility::{LimitStates, Peak};
 use rockfrag_core::hazard::{GenericSites, strongest, unusual_motions};
 use rockfrag_core::object::{Object, Place, RockingObject};
-use rockfrag_core::plausibility::MAGNITUDES;
+use rockfrag_core::plausibility::GIVEN_MAGNITUDE;
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
 use rockfrag_core::warning::Warning;
@@ -21,8 +21,8 @@ use crate::inputs::Reader;
 use crate::number;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, number as parsed};
-use crate::pipeline::paths::Read;
+use crate::pipeline::options::given;
+use crate::pipeline::paths::Files;
 
 /// Write fragility over PGA or PGV, averaged over PGV/PGA, for OpenQuake or pelicun
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -38,7 +38,7 @@ pub struct Export {
     #[arg(long, value_name = "PEAK")]
     over: Option<Peak>,
     /// Moment magnitude of the motions [default: that of motions that overturn]
-    #[arg(long, value_name = "MW", value_parser = parsed(MAGNITUDES, "a moment magnitude"))]
+    #[arg(long, value_name = "MW", value_parser = given(GIVEN_MAGNITUDE))]
     magnitude: Option<f64>,
     /// File to write, without an ending with .xml or, for pelicun, .csv
     #[arg(long, value_name = "FILE", value_hint = FilePath, default_value = "fragility")]
@@ -68,29 +68,19 @@ const STEPS: usize = 99;
 const NEAR: f64 = 1e-5;
 
 impl Stage for Export {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &ModelArgs::RULES, &[StructureArgs::COLUMNS]].concat()
-    }
-
-    fn inputs(&self) -> Vec<Read> {
-        vec![self.model.input(), self.structures.input()]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        let out = match self.out.extension() {
-            None => self.out.with_extension(self.endings()[0]),
-            Some(_) => self.out.to_path_buf(),
-        };
-        let json = (self.to == Program::Pelicun).then(|| out.with_extension("json"));
-        json.into_iter().chain([out]).collect()
-    }
-
-    fn endings(&self) -> &[&'static str] {
-        if self.to == Program::Pelicun { &["csv"] } else { &["xml"] }
+    fn files(&self) -> Files {
+        let is_pelicun = self.to == Program::Pelicun;
+        let endings = if is_pelicun { &["csv"] } else { &["xml"] };
+        let mut out = self.out.to_path_buf();
+        if out.extension().is_none() {
+            out.set_extension(endings[0]);
+        }
+        let json = is_pelicun.then(|| out.with_extension("json"));
+        let read = vec![self.model.input(), self.structures.input()];
+        Files { read, written: json.into_iter().chain([out]).collect(), endings }
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        self.model.check()?;
         self.objects(&mut self.structures.list.reader()).map(|_| ())
     }
 
@@ -119,7 +109,7 @@ impl Stage for Export {
             limit_states: vec!["rocks".to_string(), too_far, "overturns".to_string()],
             functions,
         };
-        let files = self.outputs();
+        let files = &context.plan.outputs;
         let contents = match self.to {
             Program::OpenQuake => vec![discrete(&model)],
             Program::Pelicun => {
@@ -139,6 +129,7 @@ impl Export {
     /// The objects that have an answer, one or more.
     fn objects(&self, reader: &mut Reader) -> anyhow::Result<Vec<Object>> {
         let all = self.structures.objects(&self.place, reader)?;
+        reader.expect_used()?;
         let (objects, others): (Vec<_>, Vec<_>) = all.into_iter().partition(|of| of.sides().is_ok());
         if let ([], [other, ..]) = (&objects[..], &others[..]) {
             other.sides().map_err(|reason| named(other, &reason))?;

@@ -13,7 +13,7 @@ use super::shared::{observed, responses};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Read, part};
+use crate::pipeline::paths::{Files, Read, part};
 
 /// Fit the probability of overturning: P_ro
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -50,12 +50,10 @@ pub struct FitPro {
 }
 
 impl Stage for FitPro {
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&self.input]), Read::new("motions", self.motions.iter())]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "calibration"), part(&self.out, "parameters"), self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let read = [Read::new("in", [&self.input]), Read::new("motions", &self.motions)];
+        let beside = ["calibration", "parameters"].map(|name| part(&self.out, name));
+        Files::tables(read, beside.iter().chain([&self.out]))
     }
 
     fn check(&self) -> anyhow::Result<()> {

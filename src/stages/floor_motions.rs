@@ -13,7 +13,7 @@ use super::shared::motions::process_in_order;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::number;
-use crate::pipeline::paths::{Read, out_of_partition};
+use crate::pipeline::paths::{Files, Read, out_of_partition};
 use crate::table::TableError;
 use crate::table::columns::Batch;
 use crate::table::file::Partition;
@@ -58,12 +58,9 @@ struct FloorRow {
 }
 
 impl Stage for FloorMotions {
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::partition("in", &self.input, self.partition)]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![out_of_partition(&self.out, self.partition)]
+    fn files(&self) -> Files {
+        let read = Read::partition("in", &self.input, self.partition);
+        Files::tables([read], [out_of_partition(&self.out, self.partition)])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -73,7 +70,7 @@ impl Stage for FloorMotions {
         let rows = RecordBatch::new_empty(table.schema().clone());
         let columns = Batch { path: (*self.input).into(), first_row: 0, rows };
         let schema = self.filter(Sampled { columns, motions: Vec::new() })?.schema();
-        let mut writer = context.create(&self.outputs()[0], &schema)?;
+        let mut writer = context.create(&context.plan.outputs[0], &schema)?;
         process_in_order(
             &context.bar(table.rows()),
             parts(&table, |_| true, AT_ONCE),

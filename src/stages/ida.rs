@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use arrow_array::RecordBatch;
 use clap::Args;
 use clap::ValueHint::FilePath;
-use rockfrag_core::fragility::{Cluster, KnownCapacity, fit_capacities};
+use rockfrag_core::fragility::{Cluster, Group, KnownCapacity, fit_capacities};
 use rockfrag_core::plausibility::MOST_SCALED;
 use rockfrag_core::rocking::{
     Capacity, CapacityStatus, Problem, Record, Response, Scan, ScanPoint, ScanResponse, Structure,
@@ -21,8 +21,8 @@ use super::shared::fits::text;
 use super::shared::motions::{Measures, process_in_order, warnings};
 use super::shared::objects::StructureArgs;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, number};
-use crate::pipeline::paths::{Read, part};
+use crate::pipeline::options::number;
+use crate::pipeline::paths::{Files, Read, part};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::TableError;
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
@@ -102,16 +102,10 @@ struct SingleRecordIda<'a> {
 }
 
 impl Stage for Ida {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS]].concat()
-    }
-
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&self.input]), self.structures.input()]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "stripes"), part(&self.out, "fragility"), self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let beside = ["stripes", "fragility"].map(|name| part(&self.out, name));
+        let read = [Read::new("in", [&self.input]), self.structures.input()];
+        Files::tables(read, beside.iter().chain([&self.out]))
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -146,7 +140,8 @@ impl Stage for Ida {
                 Ok(())
             },
         )?;
-        let groups = frame::groups(scanned.iter().map(|case| case.capacity.group()))?;
+        let capacities = scanned.iter().map(|case| &case.capacity);
+        let groups = frame::groups(capacities.map(|of| Group::of(&of.suite, &of.structure)))?;
         let groups = groups.iter().map(|rows| rows.iter().map(|&row| &scanned[row]).collect::<Vec<_>>());
         let fits: Vec<CapacityFitRow> = groups.map(|cases| self.fit(&scan.levels, &cases)).collect();
         context.warn(ends_early(&fits));

@@ -22,6 +22,7 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Command};
+use rockfrag_core::object::Field;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -29,13 +30,33 @@ use serde_json::Value;
 use crate::pipeline::call::Call;
 use crate::pipeline::context::Common;
 use crate::pipeline::options::{Given, Rule, defaults, is_path, merge, name_of};
-use crate::pipeline::paths::is_word;
+use crate::pipeline::paths::{Files, is_word};
 use crate::pipeline::{Stage, UsageError};
 
-/// A stage: its command, what its options exclude and need, and how serde makes it of what is given.
+/// What options of any stage exclude and need.
+pub const RULES: [Rule; 16] = [
+    Rule::Either(&Field::SIZES, &["structure", "structures"]),
+    Rule::Either(&["structure"], &["structures"]),
+    Rule::Either(&["width", "height", "depth", "centre-height", "centre-offset", "inertia"], &["p", "alpha"]),
+    Rule::Either(&["beam-mass-ratio"], &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"]),
+    Rule::Either(&["eta"], &["base"]),
+    Rule::Needs(&["ground-floor", "storeys", "building"], &["structures"]),
+    Rule::Needs(&["name", "model=paper"], &["fits"]),
+    Rule::Either(&["partition"], &["trace"]),
+    Rule::Either(&["pga", "pgv"], &OF_HAZARD),
+    Rule::Either(&["in"], &OF_HAZARD),
+    Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
+    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "variants"]),
+    Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
+    Rule::Needs(&["effective-years", "years", "target", "variants"], &["hazard"]),
+    Rule::Needs(&["columns", "ignore"], &["structures", "hazard", "in"]),
+    Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
+];
+const OF_HAZARD: [&str; 4] = ["hazard", "effective-years", "ratio", "target"];
+
+/// A stage: its command, and how serde makes it of what is given.
 pub struct StageKind {
     pub command: Command,
-    pub rules: Vec<Rule>,
     make: fn(Given) -> serde_json::Result<Made>,
 }
 
@@ -66,7 +87,6 @@ fn kind<S: Stage + Args + Serialize + DeserializeOwned + 'static>(name: &'static
     let command = Common::augment_args(shared::objects::with_fields(command)).about(about);
     StageKind {
         command: command.args_override_self(true).mut_args(|arg| arg.allow_negative_numbers(true)),
-        rules: S::rules(),
         make: |given| {
             let stage: S = serde_json::from_value(Value::Object(given))?;
             let options = serde_json::from_value(serde_json::to_value(&stage)?)?;
@@ -83,8 +103,8 @@ impl StageKind {
     /// Merges defaults, the section of a file and the options of the user, and makes the call. Default files
     /// are in `folder`.
     pub fn call(&self, section: &Given, user: &Given, folder: &Path) -> anyhow::Result<Call> {
-        let given = merge(section, user, &self.rules);
-        if let Some(problem) = self.rules.iter().find_map(|rule| rule.broken(&given)) {
+        let given = merge(section, user, &RULES);
+        if let Some(problem) = RULES.iter().find_map(|rule| rule.broken(&given)) {
             return Err(UsageError::because(problem));
         }
         let mut required = self.command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
@@ -101,12 +121,12 @@ impl StageKind {
         };
         let options = options.into_iter().filter_map(|(option, value)| Some((option, stated(value)?)));
         let options = options.filter(|(option, value)| !is_file(option, value)).collect();
-        let (outputs, endings) = (stage.outputs(), stage.endings());
+        let Files { written, endings, .. } = stage.files();
         let is_known = |ending: &OsStr| endings.iter().any(|known| ending == *known);
         // Tables go to no pipe.
         let is_other =
             |out: &&PathBuf| out.starts_with("-") || !out.extension().map_or(endings.len() == 1, is_known);
-        if let Some(out) = outputs.last().filter(is_other) {
+        if let Some(out) = written.last().filter(is_other) {
             let (out, endings) = (out.display(), endings.join(", ."));
             let problem = format!("--out is {out}; expected a name that ends in .{endings}");
             return Err(UsageError::because(problem));

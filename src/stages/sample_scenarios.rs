@@ -15,7 +15,7 @@ use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, steps};
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::Files;
 use crate::table::rows;
 
 /// Sample earthquake scenarios on a magnitude-distance grid
@@ -54,12 +54,8 @@ const PAPER_MW: RangeInclusive<f64> = 5.5..=7.5;
 const PAPER_RE_KM: RangeInclusive<f64> = 0.0..=20.0;
 
 impl Stage for SampleScenarios {
-    fn inputs(&self) -> Vec<Read> {
-        Vec::new()
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        Files::tables([], [&self.out])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

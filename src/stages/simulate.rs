@@ -16,8 +16,8 @@ use super::shared::objects::StructureArgs;
 use crate::number::{self, counted, name};
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, first_lines};
-use crate::pipeline::paths::{Read, out_of_partition, part};
+use crate::pipeline::options::first_lines;
+use crate::pipeline::paths::{Files, Read, out_of_partition, part};
 use crate::table::file::{ParquetTable, Partition};
 use crate::table::motions::{self, MotionRow, Sampled, is_motion_column};
 use crate::table::responses::{ResponseRow, TraceRow};
@@ -60,18 +60,10 @@ pub struct Simulate {
 }
 
 impl Stage for Simulate {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &[StructureArgs::COLUMNS, Rule::Either(&["partition"], &["trace"])]]
-            .concat()
-    }
-
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::partition("in", &self.input, self.partition), self.structures.input()]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn files(&self) -> Files {
         let traced = (!self.trace.is_empty()).then(|| part(&self.out, "trace"));
-        traced.into_iter().chain([out_of_partition(&self.out, self.partition)]).collect()
+        let read = [Read::partition("in", &self.input, self.partition), self.structures.input()];
+        Files::tables(read, traced.into_iter().chain([out_of_partition(&self.out, self.partition)]))
     }
 
     fn check(&self) -> anyhow::Result<()> {

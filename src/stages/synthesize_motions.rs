@@ -16,7 +16,7 @@ use crate::inputs::{Grid, Heading};
 use crate::number::{count, counted};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods};
-use crate::pipeline::paths::{Read, out_of_partition};
+use crate::pipeline::paths::{Files, Read, out_of_partition};
 use crate::pipeline::stream::pipelined;
 use crate::pipeline::{Stage, UsageError};
 use crate::table::file::{ParquetTable, Partition};
@@ -112,12 +112,9 @@ struct SyntheticMotion {
 }
 
 impl Stage for SynthesizeMotions {
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&self.input]), Read::new("site", [&self.site])]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![out_of_partition(&self.out, self.partition)]
+    fn files(&self) -> Files {
+        let read = [Read::new("in", [&self.input]), Read::new("site", [&self.site])];
+        Files::tables(read, [out_of_partition(&self.out, self.partition)])
     }
 
     fn check(&self) -> anyhow::Result<()> {
@@ -144,7 +141,7 @@ impl Stage for SynthesizeMotions {
         let model = MotionModel { dt_s: self.dt, difference, epoch, stochastic, seed };
         // Of threads that are between two chunks.
         let idle: Mutex<Vec<Synthesizer>> = Mutex::default();
-        let mut writer = context.create(&self.outputs()[0], &batch(&[], &plan)?.schema())?;
+        let mut writer = context.create(&context.plan.outputs[0], &batch(&[], &plan)?.schema())?;
         let bar = context.bar(table.rows());
         let scenarios = rows::stream::<Scenario>(&table)?.flat_map(|read| {
             let parts = read.map_err(Into::into).and_then(|some| together(&some, &model));

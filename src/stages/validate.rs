@@ -16,8 +16,7 @@ use super::shared::motion_columns::MotionColumns;
 use super::shared::responses;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::options::Rule;
-use crate::pipeline::paths::{Read, part};
+use crate::pipeline::paths::{Files, Read, part};
 
 /// Test predictions on responses not used in the fit: counts, scores and reliability
 #[derive(Debug, Args, Serialize, Deserialize)]
@@ -41,20 +40,9 @@ const COLUMNS: &str = "suite structure event model n observed expected expected_
 const EVENTS: [Event; 3] = [Event::Overturning, Event::Exceeding, Event::Failure];
 
 impl Stage for Validate {
-    fn rules() -> Vec<Rule> {
-        ModelArgs::RULES.to_vec()
-    }
-
-    fn inputs(&self) -> Vec<Read> {
-        vec![Read::new("in", [&self.input]), self.fits.input()]
-    }
-
-    fn check(&self) -> anyhow::Result<()> {
-        self.fits.check()
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![part(&self.out, "reliability"), self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let read = [Read::new("in", [&self.input]), self.fits.input()];
+        Files::tables(read, [&part(&self.out, "reliability"), &self.out])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

@@ -80,17 +80,15 @@ impl Batch {
     pub fn structures(&self, names: &[Cow<str>]) -> Result<Vec<Structure>, TableError> {
         let (p, alpha) = (self.required_numbers("p_rad_s")?, self.required_numbers("alpha_rad")?);
         let eta = self.required_numbers("eta")?;
-        let structures = names.iter().enumerate().map(|(row, name)| {
-            Structure::new(name, p[row], alpha[row], eta[row]).map_err(|error| {
-                let column = match error.parameter {
-                    "alpha" => "alpha_rad",
-                    "eta" => "eta",
-                    _ => "p_rad_s",
-                };
-                self.value_error(row, column, error)
-            })
-        });
-        structures.collect()
+        let structures =
+            names.iter().zip(p).zip(alpha).zip(eta).map(|(((name, p_rad_s), alpha_rad), eta)| Structure {
+                name: name.to_string(),
+                p_rad_s,
+                alpha_rad,
+                eta,
+                rebound: None,
+            });
+        Ok(structures.collect())
     }
 
     fn required<T>(&self, name: &str, values: Vec<Option<T>>) -> Result<Vec<T>, TableError> {

@@ -4,7 +4,6 @@ use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fs::File;
 use std::path::{Path, PathBuf};
-use std::time::SystemTime;
 
 use super::TableError;
 use super::file::{self, is_table};
@@ -86,17 +85,16 @@ impl Provenance {
 /// Computes the key of a table, or of the tables in a folder.
 pub fn key_of(path: &Path) -> Result<String, TableError> {
     let files = file::tables(path)?;
-    let read = files.iter().zip(names_below(&files)).map(|(file, name)| read_file(file, name));
-    Ok(joined(&read.collect::<Result<Vec<_>, _>>()?))
+    let read = files.iter().zip(names_below(&files));
+    let read = read.map(|(path, name)| Ok(InputFile { name, key: key_of_file(path)?, path: path.clone() }));
+    Ok(joined(&read.collect::<Result<Vec<_>, TableError>>()?))
 }
 
-/// Computes the key of the content of a file that has this name among those read: the one in its footer if
-/// rockfrag wrote it, else the hash of its bytes.
-pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
-    let mut file = InputFile { name, path: path.to_path_buf(), ..InputFile::default() };
-    file.modified = modified_at(path);
+/// Computes the key of the content of a file: the one in its footer if rockfrag wrote it, else the hash of its
+/// bytes.
+pub fn key_of_file(path: &Path) -> Result<String, TableError> {
     match is_table(path).then(|| Provenance::read(path)) {
-        Some(Ok(Some(made))) => return Ok(InputFile { key: made.key_of_content(), ..file }),
+        Some(Ok(Some(made))) => return Ok(made.key_of_content()),
         Some(Err(error @ TableError::Io { .. })) => return Err(error),
         _ => {}
     }
@@ -106,10 +104,5 @@ pub fn read_file(path: &Path, name: String) -> Result<InputFile, TableError> {
         false => File::open(source::split_sheet(path).0).and_then(|file| hasher.update_reader(file)),
     };
     hashed.map_err(|error| TableError::io(path, error))?;
-    file.key = hasher.finalize().to_hex().to_string();
-    Ok(file)
-}
-
-pub fn modified_at(path: &Path) -> Option<SystemTime> {
-    path.metadata().and_then(|found| found.modified()).ok()
+    Ok(hasher.finalize().to_hex().to_string())
 }

@@ -125,25 +125,18 @@ pub fn second_of_pairs(path: &Path, partition: Option<Partition>) -> Result<Hash
     #[derive(Serialize, Deserialize)]
     struct Component {
         motion_id: String,
-        earthquake: Option<String>,
-        station: Option<String>,
         dt_s: f64,
-        azimuth_deg: Option<f64>,
+        origin: Origin,
     }
     let part = partition.filter(|_| path.is_dir());
     let file = part.map_or(Ok(path.to_path_buf()), |part| part.file_of(path))?;
-    let (mut names, mut origins) = (Vec::new(), Vec::new());
-    for Component { motion_id, earthquake, station, dt_s, azimuth_deg } in rows::read(&file)? {
-        if part.is_some() && azimuth_deg.is_some() {
-            let problem =
-                "components, whose pairs may be in other partitions; expected one file of all motions";
-            return Err(TableError::table(&file, problem));
-        }
-        names.push(motion_id);
-        origins.push((Origin { earthquake, station, azimuth_deg, ..Origin::default() }, dt_s));
+    let components: Vec<Component> = rows::read(&file)?;
+    if part.is_some() && components.iter().any(|one| one.origin.azimuth_deg.is_some()) {
+        let problem = "components, whose pairs may be in other partitions; expected one file of all motions";
+        return Err(TableError::table(&file, problem));
     }
-    let origins: Vec<_> = origins.iter().map(|(origin, dt_s)| (origin, *dt_s)).collect();
-    Ok(pairs(&origins).into_iter().map(|[_, second]| std::mem::take(&mut names[second])).collect())
+    let origins: Vec<_> = components.iter().map(|one| (&one.origin, one.dt_s)).collect();
+    Ok(pairs(&origins).into_iter().map(|[_, second]| components[second].motion_id.clone()).collect())
 }
 
 /// Makes a batch of `known` columns, the spectral accelerations at `periods_s`, and the samples as they are

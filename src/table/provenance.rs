@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
-use std::time::SystemTime;
 
 use parquet::file::metadata::{KeyValue, ParquetMetaData};
 use rockfrag_core::warning::Warnings;
@@ -55,9 +54,6 @@ pub struct InputFile {
     pub key: String,
     #[serde(skip)]
     pub path: PathBuf,
-    /// When it was last changed, if that tells anything.
-    #[serde(skip)]
-    pub modified: Option<SystemTime>,
 }
 
 /// Returns the key of the files that are one input: that of a single file, else a hash of all.

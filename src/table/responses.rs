@@ -1,9 +1,8 @@
 //! The outputs of simulate and ida: responses and capacities, one row for each motion and structure, traces and
 //! distributions of capacities.
 
-use rockfrag_core::fragility::Group;
 use rockfrag_core::motion::IntensityMeasures;
-use rockfrag_core::rocking::{Capacity, Outcome, SolverEvent};
+use rockfrag_core::rocking::{Capacity, Outcome, SolverEvent, Structure};
 use rockfrag_core::spelling::unknown_word;
 use rockfrag_core::statistics::{FitStatus, Interval};
 use serde::{Deserialize, Serialize};
@@ -47,10 +46,7 @@ impl OutcomeWord {
 pub struct ResponseRow {
     pub motion_id: String,
     pub suite: Option<String>,
-    pub structure: String,
-    pub p_rad_s: f64,
-    pub alpha_rad: f64,
-    pub eta: f64,
+    pub structure: Structure,
     pub outcome: OutcomeWord,
     /// None after overturning: the final rotation is not a demand.
     pub edp: Option<f64>,
@@ -142,22 +138,4 @@ pub struct Stripe {
     pub structure: String,
     pub intensity: f64,
     pub outcome: OutcomeWord,
-}
-
-impl CapacityRow {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
-}
-
-impl CapacityFitRow {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
-}
-
-impl Stripe {
-    pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
-    }
 }

@@ -139,7 +139,7 @@ fn exclude(rules: &[Rule], one: &str, other: &str) -> bool {
 fn of_every_pair_the_flag_beats_the_file_and_alternatives_are_refused_within_one() {
     let mut excluded = 0;
     for stage in stages::all() {
-        let (name, rules) = (stage.name(), &stage.rules);
+        let (name, rules) = (stage.name(), &stages::RULES);
         let options: Vec<&str> = stage.command.get_arguments().map(name_of).collect();
         for (&one, &other) in options.iter().flat_map(|one| options.iter().map(move |other| (one, other))) {
             let is_excluded = one != other && exclude(rules, one, other);

@@ -32,7 +32,8 @@ fn calibration(args: &ModelArgs, structure: &Structure) -> Calibration {
 /// That of the equipment under these motions.
 fn stored(kind: MotionKind) -> Calibration {
     let all: Vec<Calibration> = rows::read(&RUN.path().join("out/pro.calibration.parquet")).unwrap();
-    let mut its = all.into_iter().filter(|row| row.kind == kind && row.structure == "electrical-equipment");
+    let mut its =
+        all.into_iter().filter(|row| row.kind == kind && row.structure.name == "electrical-equipment");
     its.next().unwrap()
 }
 

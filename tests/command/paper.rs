@@ -41,7 +41,7 @@ fn numbers() -> BTreeMap<String, f64> {
         let side = if fit.range_high.is_some() { "low" } else { "high" };
         let [ln_a, b1, b2] = [0, 1, 2].map(|at: usize| Some(fit.coefficients[at]));
         let columns = [("ln_a", ln_a), ("b1", b1), ("b2", b2), ("r2", fit.r2), ("beta", fit.beta)];
-        put(side, &fit.suite, &fit.structure, &columns);
+        put(side, &fit.suite, &fit.structure.name, &columns);
     }
     let name_of = |im_x: &Measure, im_y: &Option<Measure>| match (im_x, im_y) {
         (Measure::Im5, None) => "im5",
@@ -53,7 +53,12 @@ fn numbers() -> BTreeMap<String, f64> {
         let lambda = fit.im_y.as_ref().map(|_| lambda(&fit.coefficients).value);
         let columns = [("mu", Some(mu(&fit.coefficients).value)), ("lambda", lambda), ("auc", fit.auc)];
         let scores = [("log_likelihood", fit.log_likelihood), ("brier", fit.brier)];
-        put(name_of(&fit.im_x, &fit.im_y), &fit.suite, &fit.structure, &[&columns[..], &scores].concat());
+        put(
+            name_of(&fit.im_x, &fit.im_y),
+            &fit.suite,
+            &fit.structure.name,
+            &[&columns[..], &scores].concat(),
+        );
     }
     let parameters: Vec<ParameterRow> = rows::read(&out("pro.parameters.parquet")).unwrap();
     for row in &parameters {
@@ -104,7 +109,7 @@ fn responses_have_the_measures_of_eq_13() {
     let rows: Vec<ResponseRow> = rows::read(&out("responses.parquet")).unwrap();
     for row in rows.iter().step_by(97) {
         let im = row.measures;
-        let (p, unit) = (row.p_rad_s, 9.81 * row.alpha_rad.tan());
+        let (p, unit) = (row.structure.p_rad_s, 9.81 * row.structure.alpha_rad.tan());
         let circular = |period: Option<f64>| 2.0 * PI / period.unwrap();
         for (ours, expected) in [
             (im.im1.unwrap(), circular(row.tp_s) / p),

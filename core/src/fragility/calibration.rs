@@ -25,10 +25,7 @@ use crate::warning::Warning;
 pub struct Calibration {
     pub suite: Option<String>,
     pub kind: MotionKind,
-    pub structure: String,
-    pub p_rad_s: f64,
-    pub alpha_rad: f64,
-    pub eta: f64,
+    pub structure: Structure,
     /// Demand |theta|max / alpha of P_ex; `None` for P_ro.
     pub limit_state: Option<f64>,
     pub c: f64,
@@ -85,7 +82,7 @@ const LIKE: f64 = 1.2;
 
 impl Calibration {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     /// The prior of a kind of motion, for a structure without responses; `limit_state` is `None` for P_ro.
@@ -95,10 +92,7 @@ impl Calibration {
         let peaks = surface::peaks(kind);
         Calibration {
             kind,
-            structure: structure.name.clone(),
-            p_rad_s: structure.p_rad_s,
-            alpha_rad: structure.alpha_rad,
-            eta: structure.eta,
+            structure: structure.clone(),
             limit_state,
             c,
             ln_s,
@@ -137,8 +131,9 @@ impl Calibration {
             Some(Observation { terms, happened: fell, expected, peaks, cluster })
         });
         let observed: Vec<Observation> = observed.collect();
-        let name = OUTCOMES.to_string();
-        Some(Calibration { suite: Some(name.clone()), structure: name, ..uncalibrated.fitted(&observed) })
+        let mut fitted = uncalibrated.fitted(&observed);
+        fitted.structure.name = OUTCOMES.to_string();
+        Some(Calibration { suite: Some(OUTCOMES.to_string()), ..fitted })
     }
 
     /// Whether it was fitted to observed outcomes, and so applies to other objects too.

@@ -6,7 +6,7 @@ use super::measure_names::{Measure, has_logarithm};
 use crate::motion::{IntensityMeasures, Peaks};
 use crate::rocking::{Outcome, Structure};
 use crate::spelling::unknown_word;
-use crate::statistics::Range;
+use crate::statistics::{Bounds, Range};
 
 /// The most cases of one structure and suite: they take about 3 GB of memory.
 pub const MOST_CASES: usize = 20_000_000;
@@ -44,6 +44,12 @@ impl Event {
 pub struct Group<'a> {
     pub suite: Option<&'a str>,
     pub structure: &'a str,
+}
+
+impl<'a> Group<'a> {
+    pub fn of(suite: &'a Option<String>, structure: &'a str) -> Group<'a> {
+        Group { suite: suite.as_deref(), structure }
+    }
 }
 
 /// What motions share, so that responses to them may depend on each other.
@@ -127,7 +133,7 @@ impl Cases {
     }
 
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure.name }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn count(&self, outcome: Outcome) -> usize {
@@ -171,6 +177,13 @@ impl Cases {
     }
 }
 
+/// Least and largest value of each measure of a fit among its cases.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct MeasureRanges {
+    pub im_x: Bounds,
+    pub im_y: Bounds,
+}
+
 /// Regressors and observations of a fit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sample<Y> {
@@ -182,9 +195,13 @@ pub struct Sample<Y> {
 }
 
 impl<Y> Sample<Y> {
-    /// None without cases or such a measure.
-    pub(super) fn range(&self, measure: usize) -> Option<Range> {
-        self.ranges.get(measure).copied().filter(|range| range.low.is_finite())
+    pub(super) fn ranges(&self) -> MeasureRanges {
+        let found = |measure: usize| self.ranges.get(measure).filter(|range| range.low.is_finite());
+        let [im_x, im_y] = [0, 1].map(|measure| Bounds {
+            low: found(measure).map(|range| range.low),
+            high: found(measure).map(|range| range.high),
+        });
+        MeasureRanges { im_x, im_y }
     }
 
     pub fn x(&self) -> Vec<&[f64]> {

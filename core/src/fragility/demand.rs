@@ -8,11 +8,12 @@ use nalgebra::{Matrix4, Vector4};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event, Group, Sample};
+use super::cases::{Cases, Event, Group, MeasureRanges, Sample};
 use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
 use crate::paper::TRANSITION;
+use crate::rocking::Structure;
 use crate::spelling::unknown_word;
 use crate::statistics::scores::largest_difference;
 use crate::statistics::{FitStatus, Interval, LinearFit, clustered_least_squares, held_out};
@@ -149,10 +150,7 @@ pub enum DemandModel {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct DemandFit {
     pub suite: Option<String>,
-    pub structure: String,
-    pub p_rad_s: f64,
-    pub alpha_rad: f64,
-    pub eta: f64,
+    pub structure: Structure,
     pub model: DemandModel,
     pub im_x: Measure,
     pub im_y: Option<Measure>,
@@ -180,11 +178,7 @@ pub struct DemandFit {
     /// IM4 of the least pooled residual of two planes.
     pub transition_found: Option<f64>,
     pub n: i64,
-    /// Least and largest value of each measure among the cases.
-    pub im_x_low: Option<f64>,
-    pub im_x_high: Option<f64>,
-    pub im_y_low: Option<f64>,
-    pub im_y_high: Option<f64>,
+    pub ranges: MeasureRanges,
     /// Largest difference of P_ex at the limit states from the share of events in bins, beyond chance.
     pub largest_difference: Option<f64>,
     pub status: FitStatus,
@@ -192,7 +186,7 @@ pub struct DemandFit {
 
 impl DemandFit {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn predictors(&self) -> Predictors {
@@ -211,10 +205,7 @@ impl DemandFit {
         let limiting = fitted.map(|linear| linear.fit.limiting_covariance());
         DemandFit {
             suite: cases.suite.clone(),
-            structure: cases.structure.name.clone(),
-            p_rad_s: cases.structure.p_rad_s,
-            alpha_rad: cases.structure.alpha_rad,
-            eta: cases.structure.eta,
+            structure: cases.structure.clone(),
             model,
             im_x: measures[0].clone(),
             im_y: measures.get(1).cloned(),
@@ -240,10 +231,7 @@ impl DemandFit {
             }),
             transition_found: None,
             n: sample.y.len() as i64,
-            im_x_low: sample.range(0).map(|range| range.low),
-            im_x_high: sample.range(0).map(|range| range.high),
-            im_y_low: sample.range(1).map(|range| range.low),
-            im_y_high: sample.range(1).map(|range| range.high),
+            ranges: sample.ranges(),
             largest_difference: None,
             status: match &linear {
                 Ok(linear) if linear.fit.coefficients[1] <= 0.0 => measures[0].falling(measures.get(1)),
@@ -329,7 +317,7 @@ impl DemandFit {
         let quantile = quantile(confidence, self.degrees);
         let rows = coefficients.chain(dispersions).map(|(parameter, (value, standard_error))| ParameterRow {
             suite: self.suite.clone(),
-            structure: self.structure.clone(),
+            structure: self.structure.name.clone(),
             model: self.model.to_string(),
             im_x: self.im_x.clone(),
             im_y: self.im_y.clone(),

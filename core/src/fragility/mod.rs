@@ -21,7 +21,7 @@ mod tree;
 pub use calibration::{Calibration, LogitTerms, ObservedOutcome};
 pub use capacity::{CapacityFit, KnownCapacity, fit_capacities};
 pub use cases::MOST_CASES;
-pub use cases::{Case, Cases, Cluster, Event, Group, Sample};
+pub use cases::{Case, Cases, Cluster, Event, Group, MeasureRanges, Sample};
 pub use demand::{DemandFit, DemandModel, PLANE, TransitionPoint};
 pub use demand::{fit_demand, fit_law, fit_planes, scan_transition, transition};
 pub use demand::{ln_median_demand, p_exceeding};

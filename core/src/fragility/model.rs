@@ -140,13 +140,15 @@ impl Model {
                     _ if overturning.is_of_outcomes() => {
                         format!(", calibrated on {}, for", counted(n, "observed outcome"))
                     }
-                    _ => format!(", calibrated on {} of {} to", counted(n, "response"), name(structure)),
+                    _ => {
+                        format!(", calibrated on {} of {} to", counted(n, "response"), name(&structure.name))
+                    }
                 };
                 format!("rockfrag's universal surface{calibrated} {motions}{place}")
             }
             Model::Paper { overturning: CurveFit { n, structure, .. }, .. } => {
                 let (responses, motions) = (counted(*n as usize, "response"), self.kind().description());
-                let structure = name(structure);
+                let structure = name(&structure.name);
                 format!(
                     "rockfrag's fit of the paper's curve and planes to {responses} of {structure} \
                      to {motions}"

@@ -4,12 +4,13 @@
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::cases::{Cases, Event, Group};
+use super::cases::{Cases, Event, Group, MeasureRanges};
 use super::measure_names::{Measure, Predictors, design_row, values};
 use super::parameter::{Parameter, ParameterRow, quantile};
 use crate::motion::IntensityMeasures;
+use crate::rocking::Structure;
 use crate::statistics::scores::{auc, brier_score};
-use crate::statistics::{Bounds, FitStatus, Interval, held_out, independent_errors, normal};
+use crate::statistics::{FitStatus, Interval, held_out, independent_errors, normal};
 use crate::statistics::{clustered_probit, delta_variance, predict, probit};
 
 /// P_ro at the intensity `im`: Phi((ln IM - mu) / beta) (Eq. 20; Eq. 24 with the hybrid measure).
@@ -48,10 +49,7 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
     let falling = im_x.falling(im_y.as_ref());
     CurveFit {
         suite: cases.suite.clone(),
-        structure: cases.structure.name.clone(),
-        p_rad_s: cases.structure.p_rad_s,
-        alpha_rad: cases.structure.alpha_rad,
-        eta: cases.structure.eta,
+        structure: cases.structure.clone(),
         event,
         im_x,
         im_y,
@@ -70,10 +68,7 @@ pub fn fit_curve(cases: &Cases, event: Event, im_x: Measure, im_y: Option<Measur
             scores.sum::<f64>() / z.len() as f64
         }),
         calibration_slope: held_out.and_then(|z| Some(probit(&[z], &sample.y).ok()?.fit.coefficients[1])),
-        im_x_low: sample.range(0).map(|range| range.low),
-        im_x_high: sample.range(0).map(|range| range.high),
-        im_y_low: sample.range(1).map(|range| range.low),
-        im_y_high: sample.range(1).map(|range| range.high),
+        ranges: sample.ranges(),
         largest_difference: fitted.and_then(|probit| probit.largest_difference),
         status: match &tried {
             Ok(_) if slope(&coefficients) <= 0.0 => falling,
@@ -129,10 +124,7 @@ pub fn fit_curves(cases: &Cases, event: Event, asked: &[Predictors], all: bool) 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CurveFit {
     pub suite: Option<String>,
-    pub structure: String,
-    pub p_rad_s: f64,
-    pub alpha_rad: f64,
-    pub eta: f64,
+    pub structure: Structure,
     pub event: Event,
     pub im_x: Measure,
     pub im_y: Option<Measure>,
@@ -153,10 +145,7 @@ pub struct CurveFit {
     /// Slope of the probit of the events on z by a fit to the others: 1 is best, below it the curve is too
     /// steep (Cox 1958, Biometrika 45, 562-565).
     pub calibration_slope: Option<f64>,
-    pub im_x_low: Option<f64>,
-    pub im_x_high: Option<f64>,
-    pub im_y_low: Option<f64>,
-    pub im_y_high: Option<f64>,
+    pub ranges: MeasureRanges,
     /// Largest difference of the probability from the share of events in bins of cases, beyond chance.
     pub largest_difference: Option<f64>,
     pub status: FitStatus,
@@ -164,7 +153,7 @@ pub struct CurveFit {
 
 impl CurveFit {
     pub fn group(&self) -> Group<'_> {
-        Group { suite: self.suite.as_deref(), structure: &self.structure }
+        Group::of(&self.suite, &self.structure.name)
     }
 
     pub fn predictors(&self) -> Predictors {
@@ -210,13 +199,10 @@ impl CurveFit {
     }
 
     pub fn covers(&self, measures: &IntensityMeasures) -> bool {
-        let ranges = [
-            (Some(&self.im_x), self.im_x_low, self.im_x_high),
-            (self.im_y.as_ref(), self.im_y_low, self.im_y_high),
-        ];
-        ranges.into_iter().all(|(measure, low, high)| {
+        let ranges = [(Some(&self.im_x), self.ranges.im_x), (self.im_y.as_ref(), self.ranges.im_y)];
+        ranges.into_iter().all(|(measure, range)| {
             let value = measure.and_then(|measure| measure.value_of(measures));
-            value.is_none_or(|value| Bounds { low, high }.has(value, 1.0))
+            value.is_none_or(|value| range.has(value, 1.0))
         })
     }
 
@@ -235,7 +221,7 @@ impl CurveFit {
             let half_width = quantile(confidence, self.degrees) * standard_error;
             ParameterRow {
                 suite: self.suite.clone(),
-                structure: self.structure.clone(),
+                structure: self.structure.name.clone(),
                 model: self.event.to_string(),
                 im_x: self.im_x.clone(),
                 im_y: self.im_y.clone(),

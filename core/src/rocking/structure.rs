@@ -1,14 +1,12 @@
 //! Rocking structures: p, alpha and eta, given or computed from dimensions (section 2.2.1).
 
-use std::f64::consts::FRAC_PI_2;
-use std::ops::RangeInclusive;
-
-use crate::plausibility::FREQUENCIES_RAD_S;
+use crate::plausibility::range_of_column;
 use crate::units::G_M_S2;
 
 /// A rigid rocking structure: the three parameters of its response.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Structure {
+    #[serde(rename = "structure")]
     pub name: String,
     pub p_rad_s: f64,
     pub alpha_rad: f64,
@@ -16,12 +14,9 @@ pub struct Structure {
     pub eta: f64,
     /// Rebound from a wall behind it, the ratio of the angular velocities after and before the impact: of the
     /// surface's probabilities alone, since solvers rock it to both sides.
+    #[serde(skip)]
     pub rebound: Option<f64>,
 }
-
-/// Accepted slendernesses, rad, and coefficients of restitution.
-const SLENDERNESSES_RAD: RangeInclusive<f64> = 1e-6..=FRAC_PI_2.next_down();
-const RESTITUTIONS: RangeInclusive<f64> = f64::MIN_POSITIVE..=1.0;
 
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("structure '{structure}': {parameter} is {value}; expected {expected}")]
@@ -36,12 +31,9 @@ impl Structure {
     /// # Errors
     /// If `p` is not in [0.001, 100] rad/s, `alpha` not in [1e-6, pi/2) rad or `eta` not in (0, 1].
     pub fn new(name: &str, p_rad_s: f64, alpha_rad: f64, eta: f64) -> Result<Structure, StructureError> {
-        let accepted = [
-            ("p", p_rad_s, FREQUENCIES_RAD_S, "a frequency parameter above 0 rad/s, from 0.001 to 100"),
-            ("alpha", alpha_rad, SLENDERNESSES_RAD, "a slenderness between 0 and pi/2 rad, of 1e-6 or more"),
-            ("eta", eta, RESTITUTIONS, "a coefficient of restitution above 0 and up to 1"),
-        ];
-        for (parameter, value, range, expected) in accepted {
+        let given = [("p", "p_rad_s", p_rad_s), ("alpha", "alpha_rad", alpha_rad), ("eta", "eta", eta)];
+        for (parameter, column, value) in given {
+            let (range, expected) = range_of_column(column);
             if !range.contains(&value) {
                 return Err(StructureError { structure: name.to_string(), parameter, value, expected });
             }
@@ -94,9 +86,13 @@ impl Structure {
 
     /// Whether p, alpha and eta are those of another structure, each within 1 %.
     pub fn is_like(&self, other: &Structure) -> bool {
-        [(self.p_rad_s, other.p_rad_s), (self.alpha_rad, other.alpha_rad), (self.eta, other.eta)]
-            .into_iter()
-            .all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+        let mut both = self.parameters().into_iter().zip(other.parameters());
+        both.all(|(a, b)| (a - b).abs() <= 0.01 * b.abs())
+    }
+
+    /// p, alpha and eta.
+    pub fn parameters(&self) -> [f64; 3] {
+        [self.p_rad_s, self.alpha_rad, self.eta]
     }
 
     /// Returns the diagonal (m) of the solid rectangular block that has this p.

@@ -151,15 +151,15 @@ impl GroupFits<'_> {
         }
     }
 
-    /// Whether a fit of this suite, p, alpha and eta is of a structure.
-    fn is_of(&self, of: &Structure, suite: &Option<String>, parameters: [f64; 3]) -> bool {
-        suite.as_deref() == Some(self.suite) && parameters == [of.p_rad_s, of.alpha_rad, of.eta]
+    /// Whether a fit to this suite is of a structure.
+    fn is_of(&self, of: &Structure, suite: &Option<String>, fitted: &Structure) -> bool {
+        suite.as_deref() == Some(self.suite) && fitted.parameters() == of.parameters()
     }
 
     fn plane(&self, side: &str) -> Option<&DemandFit> {
         let planes = self.demand.iter().filter(|fit| fit.model == DemandModel::Biplanar);
         let mut on_side = planes.filter(|fit| fit.range_high.is_some() == (side == "below"));
-        on_side.find(|fit| self.is_of(&self.structure, &fit.suite, [fit.p_rad_s, fit.alpha_rad, fit.eta]))
+        on_side.find(|fit| self.is_of(&self.structure, &fit.suite, &fit.structure))
     }
 
     fn im5(&self) -> Option<&CurveFit> {
@@ -173,7 +173,7 @@ impl GroupFits<'_> {
     fn curve(&self, of: &Structure, im_x: Measure, im_y: Option<Measure>) -> Option<&CurveFit> {
         let mut fitted = self.curves.iter().filter(|fit| !fit.coefficients.is_empty());
         fitted.find(|fit| {
-            self.is_of(of, &fit.suite, [fit.p_rad_s, fit.alpha_rad, fit.eta])
+            self.is_of(of, &fit.suite, &fit.structure)
                 && (fit.event, &fit.im_x, &fit.im_y) == (Event::Overturning, &im_x, &im_y)
         })
     }

@@ -31,8 +31,8 @@ use crate::chart::{DPI, png, svg};
 use crate::document::{Document, PageArgs, sheet, workbook};
 use crate::inputs::{Reader, hazard};
 use crate::pipeline::context::Context;
-use crate::pipeline::options::{Rule, given, number};
-use crate::pipeline::paths::Read;
+use crate::pipeline::options::{given, number};
+use crate::pipeline::paths::{Files, Read};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::frame::{self, Format};
 
@@ -110,54 +110,24 @@ pub struct Evaluate {
     place: Place,
 }
 
-/// Options of a hazard.
-const SITE: [&str; 4] = ["hazard", "effective-years", "ratio", "target"];
-const RULES: [Rule; 8] = [
-    Rule::Either(&["pga", "pgv"], &SITE),
-    Rule::Either(&["in"], &SITE),
-    Rule::Either(&["in"], &["pga", "pgv", "vs30"]),
-    Rule::Either(&["over"], &["in", "pga", "pgv", "target", "variants"]),
-    Rule::Either(&["vs30"], &["ratio", "fits", "suite"]),
-    Rule::Needs(&["effective-years", "years", "target", "variants"], &["hazard"]),
-    Rule::Needs(&["columns", "ignore"], &["hazard", "structures", "in"]),
-    Rule::Needs(&["period-sd"], &["period", "structure", "structures"]),
-];
-
 /// Endings of files of rows and, from the fifth on, of pages and figures.
 const ENDINGS: [&str; 7] = ["parquet", "csv", "json", "xlsx", "html", "svg", "png"];
 
 impl Stage for Evaluate {
-    fn rules() -> Vec<Rule> {
-        [&StructureArgs::RULES[..], &ModelArgs::RULES, &RULES].concat()
-    }
-
-    fn inputs(&self) -> Vec<Read> {
-        vec![
-            Read::new("in", self.input.iter()),
-            Read::new("hazard", self.hazard.iter()),
-            self.model.input(),
-            self.structures.input(),
-        ]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
+    fn files(&self) -> Files {
+        let (table, hazard) = (Read::new("in", &self.input), Read::new("hazard", &self.hazard));
+        let read = vec![table, hazard, self.model.input(), self.structures.input()];
         let beside = || Some(self.input.as_ref()?.with_file_name("evaluated.parquet"));
         let out = self.out.clone().or_else(beside);
         let is_table = |out: &&PathBuf| self.variants && ending(out) == "parquet";
         let variants = out.as_ref().filter(is_table).map(|out| variants_beside(out));
-        variants.into_iter().chain(out).collect()
-    }
-
-    fn endings(&self) -> &[&'static str] {
         // A page or figure is of objects.
-        if self.input.is_some() { &ENDINGS[..4] } else { &ENDINGS }
+        let endings = if self.input.is_some() { &ENDINGS[..4] } else { &ENDINGS };
+        Files { read, written: variants.into_iter().chain(out).collect(), endings }
     }
 
     fn check(&self) -> anyhow::Result<()> {
-        if self.pga.or(self.pgv).is_some() {
-            self.motion()?;
-        }
-        self.model.check()
+        if self.pga.or(self.pgv).is_some() { self.motion().map(drop) } else { Ok(()) }
     }
 
     fn format(&self) -> Format {
@@ -199,7 +169,7 @@ impl Stage for Evaluate {
         }
         let document = Document::of_answers(&table).signed(&self.signed);
         let text = document.text(self.out.as_deref());
-        if let [beside, _] = &self.outputs()[..] {
+        if let [beside, _] = &context.plan.outputs[..] {
             let variants: Vec<Answer> = table.details.iter().flat_map(|of| of.variants.clone()).collect();
             context.write_batches(beside, &[answer::variant_table(&variants, &question)?], &text)?;
         }
@@ -291,10 +261,10 @@ impl Evaluate {
         context: &Context,
         document: &Document,
     ) -> anyhow::Result<()> {
-        let Some(out) = self.outputs().pop() else { return Ok(()) };
+        let Some(out) = context.plan.outputs.last() else { return Ok(()) };
         let sheet = || sheet.map_or_else(|| framed(rows), |sheet| Ok(sheet.clone()));
-        let content = match &*ending(&out) {
-            "parquet" => return context.write_batches(&out, rows, text),
+        let content = match &*ending(out) {
+            "parquet" => return context.write_batches(out, rows, text),
             "csv" => frame::show(&sheet()?, Format::Csv)?.into_bytes(),
             "json" => frame::show(&framed(rows)?, Format::Json)?.into_bytes(),
             "xlsx" => workbook(&sheet()?)?,
@@ -302,7 +272,7 @@ impl Evaluate {
             "svg" => svg(&document.main_figure()?).into_bytes(),
             _ => png(&svg(&document.main_figure()?), DPI)?,
         };
-        context.write_file(&out, &content)
+        context.write_file(out, &content)
     }
 }
 

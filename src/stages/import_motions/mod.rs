@@ -24,7 +24,7 @@ use crate::inputs::About;
 use crate::inputs::records::{ReadOptions, RecordFormat};
 use crate::pipeline::context::Context;
 use crate::pipeline::options::{Steps, number, periods, steps};
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::{Files, Read};
 use crate::pipeline::stream::{batches, pipelined};
 use crate::pipeline::{Stage, UsageError};
 use crate::table::keys::resolved;
@@ -104,14 +104,9 @@ fn unit<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Unit>, D::E
 }
 
 impl Stage for ImportMotions {
-    fn inputs(&self) -> Vec<Read> {
-        let records = Read::new("files", self.files.iter());
-        let about = Read::new("about", self.about.iter());
-        vec![Read { whole_folders: true, ..records }, about]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.out.to_path_buf()]
+    fn files(&self) -> Files {
+        let records = Read { whole_folders: true, ..Read::new("files", &self.files) };
+        Files::tables([records, Read::new("about", &self.about)], [&self.out])
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {
@@ -126,22 +121,21 @@ impl Stage for ImportMotions {
             accept_implausible: self.accept_implausible,
             plan: MeasurePlan { housner: self.housner, sa_periods_s },
         };
-        let about = self.about.as_deref().map_or(Ok(About::default()), About::read);
-        let about = about.map_err(|error| UsageError::because(error.to_string()))?;
-        context.tell(Warnings::default(), self.about.iter().map(|_| about.reading.clone()).collect());
         let reading =
             ReadOptions { format: self.format, dt_s: self.dt, unit: self.unit, column: self.column.clone() };
         let files = context.plan.made.inputs.get("files").into_iter().flatten();
         let files = importer::named(files.map(|file| file.path.clone()).collect());
-        let mut importer = Importer { files, reading, processing, about };
-        let mut writer = context.create(&self.out, &batch(&[], &importer.processing.plan)?.schema())?;
+        let mut importer = Importer { files, reading, processing, about: About::default() };
         if let Some(path) = &self.about {
-            let about = resolved(path);
-            importer.files.retain(|file| resolved(&file.path) != about);
-            let mut known = importer.files.iter().filter_map(|file| importer.about.get(&file.path));
+            let Importer { files, about, .. } = &mut importer;
+            *about = About::read(path).map_err(|error| UsageError::because(error.to_string()))?;
+            context.tell(Warnings::default(), vec![about.reading.clone()]);
+            files.retain(|file| resolved(&file.path) != resolved(path));
             let problem = format!("{}: no row is about any of the files", path.display());
-            anyhow::ensure!(known.next().is_some(), UsageError::because(problem));
+            let is_about_any = files.iter().any(|file| about.get(&file.path).is_some());
+            anyhow::ensure!(is_about_any, UsageError::because(problem));
         }
+        let mut writer = context.create(&self.out, &batch(&[], &importer.processing.plan)?.schema())?;
         let mut summary = Summary::default();
         let work = importer.work(context, &mut summary)?;
         let bar = context.bar(work.len());

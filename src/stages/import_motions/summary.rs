@@ -3,7 +3,9 @@
 use std::collections::{BTreeMap, HashMap};
 
 use anyhow::{bail, ensure};
+use rockfrag_core::motion::MotionMeasures;
 use rockfrag_core::records::processing::ImportedMotion;
+use rockfrag_core::statistics::Range;
 use rockfrag_core::units::G_M_S2;
 
 use crate::number::{count, counted, fixed};
@@ -27,9 +29,8 @@ pub struct Summary {
 
 impl Summary {
     pub fn add(&mut self, imported: Vec<ImportedMotion>) {
-        for motion in imported {
-            self.motions.push(ImportedMotion { acceleration_m_s2: Vec::new(), ..motion });
-        }
+        let without = |motion| ImportedMotion { acceleration_m_s2: Vec::new(), ..motion };
+        self.motions.extend(imported.into_iter().map(without));
     }
 
     pub fn leave_out(&mut self, why: NotImported) {
@@ -69,6 +70,10 @@ impl Summary {
         let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
         self.motions.iter().for_each(|motion| *kinds.entry(&motion.kind).or_default() += 1);
         let kinds: Vec<String> = kinds.iter().map(|(kind, n)| format!("{} {kind}", count(*n))).collect();
+        let range = |of: fn(&MotionMeasures) -> f64| {
+            let Range { low, high } = Range::over(self.motions.iter().map(|motion| of(&motion.measures)));
+            format!("{} to {}", fixed(low, 3), fixed(high, 3))
+        };
         let left_out = self.left_out();
         let left_out = if left_out.is_empty() { String::new() } else { format!("; {left_out} left out") };
         format!(
@@ -77,13 +82,8 @@ impl Summary {
             kinds.join(", "),
             count(self.motions.iter().filter(|motion| motion.pulse.tp_s.is_some()).count()),
             count(self.motions.iter().filter(|motion| motion.origin.mw.is_some()).count()),
-            range(self.motions.iter().map(|motion| motion.measures.pga_m_s2 / G_M_S2)),
-            range(self.motions.iter().map(|motion| motion.measures.pgv_m_s))
+            range(|measures| measures.pga_m_s2 / G_M_S2),
+            range(|measures| measures.pgv_m_s)
         )
     }
-}
-
-fn range(values: impl Iterator<Item = f64> + Clone) -> String {
-    let low = values.clone().fold(f64::INFINITY, f64::min);
-    format!("{} to {}", fixed(low, 3), fixed(values.fold(0.0, f64::max), 3))
 }

@@ -15,7 +15,7 @@ use crate::document::PageArgs;
 use crate::number::counted;
 use crate::pipeline::Stage;
 use crate::pipeline::context::Context;
-use crate::pipeline::paths::Read;
+use crate::pipeline::paths::{Files, Read};
 use crate::table::file;
 use tables::Tables;
 
@@ -51,11 +51,7 @@ impl Report {
 }
 
 impl Stage for Report {
-    fn endings(&self) -> &[&'static str] {
-        &["html"]
-    }
-
-    fn inputs(&self) -> Vec<Read> {
+    fn files(&self) -> Files {
         let paths = self.input.iter().flat_map(|path| {
             // Partitions stand in folders in the folder.
             let entries = file::entries(path).into_iter().flatten();
@@ -63,11 +59,7 @@ impl Stage for Report {
                 .chain(entries.filter(|entry| entry.is_dir()))
                 .collect::<Vec<_>>()
         });
-        vec![Read::new("in", paths)]
-    }
-
-    fn outputs(&self) -> Vec<PathBuf> {
-        vec![self.page()]
+        Files { read: vec![Read::new("in", paths)], written: vec![self.page()], endings: &["html"] }
     }
 
     fn run(&self, context: &Context) -> anyhow::Result<String> {

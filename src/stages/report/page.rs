@@ -1,6 +1,6 @@
 //! The page: one sentence, one table, one figure; then further figures; folded, tests and files.
 
-use rockfrag_core::fragility::{Cases, DemandModel, Measure, Predictors};
+use rockfrag_core::fragility::{Cases, DemandModel, Group, Measure, Predictors};
 use rockfrag_core::paper::{self, Claim};
 use rockfrag_core::rocking::{Outcome, Structure};
 use rockfrag_core::statistics::Interval;
@@ -169,6 +169,7 @@ fn cell(row: &Value, field: &str) -> String {
             (Some(count), _) => number::count(count as usize),
             (_, number) => number.map_or(String::new(), |number| minus(number::significant(number, 3))),
         },
+        Value::Object(part) if part.contains_key(field) => cell(&row[field], field),
         Value::Object(_) => {
             let value: Option<Interval<Option<f64>>> = serde_json::from_value(row[field].clone()).ok();
             value.map_or(String::new(), |value| TWO_DIGITS.both(value, ""))
@@ -215,7 +216,7 @@ fn outcomes(tables: &Tables) -> anyhow::Result<Table> {
     for cases in &tables.groups {
         let often = tables.fits.calibration(cases).map(|row| row.n_events as f64 / row.expected);
         let often = often.map(|often| format!("{} times", number::significant(often, 2)));
-        let capacity = capacities.iter().find(|fit| fit.group() == cases.group());
+        let capacity = capacities.iter().find(|fit| Group::of(&fit.suite, &fit.structure) == cases.group());
         let by_curve = || curve_parameters(tables, cases);
         let (theta, beta) = capacity.map_or_else(by_curve, |fit| (fit.theta, fit.beta));
         let all = cases.all.len();
@@ -243,7 +244,7 @@ fn demands(tables: &Tables) -> anyhow::Result<Vec<Table>> {
         let line = |its: &Vec<&ResponseRow>| {
             let peaks = [its[0].pga_m_s2 / G_M_S2, its[0].pgv_m_s].map(|peak| TWO_DIGITS.one(peak));
             let demands = structures.iter().map(|of| {
-                let response = its.iter().find(|row| row.structure == of[0].structure.name);
+                let response = its.iter().find(|row| row.structure.name == of[0].structure.name);
                 response.map_or(String::new(), |of| match of.outcome {
                     OutcomeWord::NoRocking => "does not rock".to_string(),
                     OutcomeWord::SafeRocking => of.edp.map_or(String::new(), |edp| TWO_DIGITS.one(edp)),

@@ -44,7 +44,7 @@ impl CurveLine {
         };
         CurveLine {
             suite: fit.suite.clone(),
-            structure: fit.structure.clone(),
+            structure: fit.structure.name.clone(),
             im_x: fit.im_x.clone(),
             im_y: fit.im_y.clone(),
             theta: of(Parameter::Theta),
@@ -71,7 +71,7 @@ pub fn best_first<F>(fits: &[F], group: fn(&F) -> Group, score: fn(&F) -> Option
 pub fn warnings(rows: &[Calibration]) -> Warnings {
     let warnings = rows.iter().flat_map(|row| {
         let suite = row.suite.as_ref().map_or(String::new(), |suite| format!(" ({suite})"));
-        let about = move |warning| (warning, format!("{}{suite}", row.structure));
+        let about = move |warning| (warning, format!("{}{suite}", row.structure.name));
         row.warnings().into_iter().map(about)
     });
     warnings.collect()

@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::number::listed;
 use crate::pipeline::UsageError;
-use crate::pipeline::options::{Rule, given};
+use crate::pipeline::options::given;
 use crate::pipeline::paths::Read;
 use crate::stages::shared::objects::named;
 use crate::table::TableError;
@@ -67,15 +67,6 @@ pub struct Models {
 }
 
 impl ModelArgs {
-    pub const RULES: [Rule; 1] = [Rule::Needs(&["name"], &["fits"])];
-
-    /// Checks that there are fits where these alone predict.
-    pub fn check(&self) -> anyhow::Result<()> {
-        let has_fits = self.model != ModelName::Paper || self.fits.is_some();
-        ensure!(has_fits, UsageError::because("model is paper; expected its fits, too: --fits"));
-        Ok(())
-    }
-
     pub fn input(&self) -> Read {
         const FILES: [&str; 4] =
             ["pro.calibration.parquet", "pex.calibration.parquet", "pro.parquet", "pex.parquet"];
@@ -145,7 +136,7 @@ impl Models {
                 }
             }
         };
-        let is_other = !overturning.is_of_outcomes() && !structure.is_like(&structure_of(overturning));
+        let is_other = !overturning.is_of_outcomes() && !structure.is_like(&overturning.structure);
         let warnings =
             [(overturning.n == 0).then_some(Warning::NotFitted), is_other.then_some(Warning::OtherStructure)];
         Ok((model, warnings.into_iter().flatten().collect()))
@@ -155,9 +146,11 @@ impl Models {
     pub fn structures(&self) -> anyhow::Result<Vec<Structure>> {
         let (name, mut known) = (self.args.name.as_ref(), HashSet::new());
         let mut rows: Vec<&Calibration> = self.overturning.iter().collect();
-        rows.retain(|row| name.is_none_or(|name| *name == row.structure) && known.insert(&row.structure));
+        rows.retain(|Calibration { structure, .. }| {
+            name.is_none_or(|name| *name == structure.name) && known.insert(&structure.name)
+        });
         ensure!(!rows.is_empty(), self.not_fitted(name.map_or("", String::as_str)));
-        Ok(rows.into_iter().map(structure_of).collect())
+        Ok(rows.into_iter().map(|row| row.structure.clone()).collect())
     }
 
     /// Refuses fits to motions of a floor, whose intensity measures are those of the floor.
@@ -173,7 +166,7 @@ impl Models {
     }
 
     fn not_fitted(&self, name: &str) -> anyhow::Error {
-        let known = distinct(self.overturning.iter().map(|row| row.structure.as_str()));
+        let known = distinct(self.overturning.iter().map(|row| row.structure.name.as_str()));
         let problem = format!("no structure like '{name}'; expected one of {known} by --name");
         UsageError::because(self.problem(&problem))
     }
@@ -183,13 +176,13 @@ impl Models {
     fn fit(&self, structure: &Structure) -> anyhow::Result<Option<&Calibration>> {
         let name = self.args.name.as_ref();
         let is_like = |row: &&Calibration| match name {
-            Some(name) => row.structure == *name,
-            None => row.is_of_outcomes() || structure.is_like(&structure_of(row)),
+            Some(name) => row.structure.name == *name,
+            None => row.is_of_outcomes() || structure.is_like(&row.structure),
         };
         let like = self.overturning.iter().filter(is_like);
-        match like.min_by_key(|row| row.structure != structure.name) {
+        match like.min_by_key(|row| row.structure.name != structure.name) {
             Some(like) => {
-                let its = self.overturning.iter().filter(|row| row.structure == like.structure);
+                let its = self.overturning.iter().filter(|row| row.structure.name == like.structure.name);
                 self.of_one_suite(&its.collect::<Vec<_>>()).map(Some)
             }
             None if name.is_some() || self.args.model == ModelName::Paper => {
@@ -230,7 +223,7 @@ impl Models {
             self.problem(&format!(
                 "no P_ex of '{}' for this limit state and the responses of P_ro; run fit-pex --limit-state \
                  {limit_state} on these",
-                overturning.structure
+                overturning.structure.name
             ))
         })
     }
@@ -243,7 +236,7 @@ impl Models {
         let of = |predictors| usable.clone().find(|fit| fit.predictors() == predictors).cloned();
         let hybrid = of(Predictors::two([Measure::Im4, Measure::Im3Inverse]));
         hybrid.or_else(|| of(Predictors::one(Measure::Im5))).with_context(|| {
-            let problem = format!("no usable curve of '{}'; use --model calibrated", row.structure);
+            let problem = format!("no usable curve of '{}'; use --model calibrated", row.structure.name);
             self.problem(&problem)
         })
     }
@@ -251,8 +244,4 @@ impl Models {
 
 fn distinct<'a>(texts: impl Iterator<Item = &'a str>) -> String {
     listed(&texts.collect::<BTreeSet<_>>().into_iter().collect::<Vec<_>>(), 8)
-}
-
-fn structure_of(Calibration { structure: name, p_rad_s, alpha_rad, eta, .. }: &Calibration) -> Structure {
-    Structure { name: name.clone(), p_rad_s: *p_rad_s, alpha_rad: *alpha_rad, eta: *eta, rebound: None }
 }

@@ -83,10 +83,7 @@ impl Measures {
         ResponseRow {
             motion_id: motion.motion_id.clone(),
             suite: motion.suite.clone(),
-            structure: structure.name.clone(),
-            p_rad_s: structure.p_rad_s,
-            alpha_rad: structure.alpha_rad,
-            eta: structure.eta,
+            structure: structure.clone(),
             outcome: response.outcome.into(),
             edp: response.outcome.demand(),
             impacts: i32::try_from(response.impacts).ok(),

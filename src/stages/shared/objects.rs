@@ -18,7 +18,6 @@ use strum::VariantArray;
 use crate::inputs::Reader;
 use crate::inputs::objects::{self, ListDefaults};
 use crate::pipeline::UsageError;
-use crate::pipeline::options::Rule;
 use crate::pipeline::paths::Read;
 use crate::stages::shared::reading_args::ListArgs;
 
@@ -69,23 +68,6 @@ pub struct StructureArgs {
 }
 
 impl StructureArgs {
-    /// Where the list alone has headings.
-    pub const COLUMNS: Rule = Rule::Needs(&["columns", "ignore"], &["structures"]);
-    pub const RULES: [Rule; 6] = [
-        Rule::Either(&Field::SIZES, &["structure", "structures"]),
-        Rule::Either(&["structure"], &["structures"]),
-        Rule::Either(
-            &["width", "height", "depth", "centre-height", "centre-offset", "inertia"],
-            &["p", "alpha"],
-        ),
-        Rule::Either(
-            &["beam-mass-ratio"],
-            &["depth", "centre-height", "centre-offset", "inertia", "p", "alpha"],
-        ),
-        Rule::Either(&["eta"], &["base"]),
-        Rule::Needs(&["ground-floor", "storeys", "building"], &["structures"]),
-    ];
-
     pub fn input(&self) -> Read {
         Read::new("structures", &self.structures)
     }
@@ -104,6 +86,7 @@ impl StructureArgs {
     /// without its rows that do not rock on the ground.
     pub fn resolve(&self, reader: &mut Reader) -> anyhow::Result<Vec<Vec<Structure>>> {
         let objects = self.objects(&Place::default(), reader)?;
+        reader.expect_used()?;
         let mut resolved = Vec::new();
         for object in &objects {
             let name = &object.name;

@@ -98,9 +98,9 @@ fn outcomes(batch: &Batch) -> Result<Vec<Outcome>, TableError> {
 
 /// Checks that a row has the p, alpha and eta that its structure has in the rows before.
 fn expect_same(batch: &Batch, row: usize, found: &Structure, known: &Structure) -> Result<(), TableError> {
-    let parameters = |of: &Structure| [("p_rad_s", of.p_rad_s), ("alpha_rad", of.alpha_rad), ("eta", of.eta)];
-    let mut both = parameters(found).into_iter().zip(parameters(known));
-    let Some(((column, found), (_, expected))) = both.find(|(found, known)| found != known) else {
+    let mut both =
+        found.parameters().into_iter().zip(known.parameters()).zip(["p_rad_s", "alpha_rad", "eta"]);
+    let Some(((found, expected), column)) = both.find(|((found, known), _)| found != known) else {
         return Ok(());
     };
     let problem = format!(
