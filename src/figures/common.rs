@@ -65,7 +65,7 @@ pub fn name_of(structure: &str) -> String {
 }
 
 /// Names the motions of a suite; marked text.
-pub fn motions_of(suite: &str) -> String {
+fn motions_of(suite: &str) -> String {
     match suite.parse() {
         Ok(Suite::Pulse) => "pulses".to_string(),
         Ok(Suite::Csgm) => "combined motions".to_string(),
@@ -73,6 +73,11 @@ pub fn motions_of(suite: &str) -> String {
         Ok(Suite::Record) => "records".to_string(),
         Err(_) => literal(suite),
     }
+}
+
+/// Names the motions of cases; marked text.
+pub fn motions(cases: &Cases) -> String {
+    motions_of(cases.suite.as_deref().unwrap_or("motions"))
 }
 
 /// Joins a structure, marked text, with the suite of synthetic motions.
@@ -141,12 +146,6 @@ pub fn compare(caption: &str, figure: &str) -> String {
 pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
     let overturned = |case: &Case| Event::Overturning.happened(case.outcome, f64::INFINITY);
     cases.all.iter().filter_map(move |case| Some((case, overturned(case)?)))
-}
-
-/// The cases whose demand in safe rocking has a logarithm, and this demand.
-pub fn demands(cases: &Cases) -> impl Iterator<Item = (&Case, f64)> {
-    let known = cases.all.iter().filter_map(|case| Some((case, case.outcome.demand()?)));
-    known.filter(|(_, demand)| *demand > 0.0)
 }
 
 /// A value of y with its limits.

@@ -5,7 +5,7 @@ use rockfrag_core::paper::EXAMPLE_LAMBDA;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
 
-use super::common::{called, label, motions_of, order, rocked};
+use super::common::{called, label, motions, order, rocked};
 use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
 use crate::number;
 use crate::table::rows::by;
@@ -18,35 +18,28 @@ const SLENDERNESS: [f64; 2] = [0.15, 0.3];
 
 type Over = fn(&Case) -> Option<f64>;
 
-/// A lognormal curve (Eq. 20) over some measure, and the range of its cases.
-struct Curve<'a> {
-    cases: &'a Cases,
+/// A lognormal curve (Eq. 20) over some measure, drawn over the range of its cases.
+struct Curve {
     mu: f64,
     beta: f64,
-    range: Range,
+    line: Layer,
 }
 
-impl<'a> Curve<'a> {
-    fn fit(cases: &'a Cases, measure: Over) -> Option<Curve<'a>> {
-        let known = rocked(cases).filter_map(|(case, overturned)| Some((measure(case)?.ln(), overturned)));
-        let (x, events): (Vec<f64>, Vec<bool>) = known.unzip();
-        let count = events.iter().filter(|event| **event).count();
-        if count.min(events.len() - count) < FEW_EVENTS {
-            return None;
-        }
-        let fit = probit(&[&x], &events).ok()?.fit;
-        let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
-        let range = Range::over(x.iter().map(|x| x.exp()));
-        (beta > 0.0).then_some(Curve { cases, mu, beta, range })
+/// None where a structure overturns, or does not, too seldom.
+fn fit(cases: &Cases, measure: Over) -> Option<Curve> {
+    let known = rocked(cases).filter_map(|(case, overturned)| Some((measure(case)?.ln(), overturned)));
+    let (ln_im, events): (Vec<f64>, Vec<bool>) = known.unzip();
+    let count = events.iter().filter(|event| **event).count();
+    if count.min(events.len() - count) < FEW_EVENTS {
+        return None;
     }
-
-    fn layer(&self) -> Layer {
-        let structure = &self.cases.structure;
-        let step = SLENDERNESS.iter().filter(|alpha| structure.alpha_rad > **alpha).count();
-        let x = equal_ratios(self.range.low, self.range.high, STEPS);
-        let marks = x.map(|x| Mark::new(x, p_overturning(x, self.mu, self.beta)));
-        Layer::line(&called(structure), Ink::Step(step), marks).unlisted()
-    }
+    let fit = probit(&[&ln_im], &events).ok()?.fit;
+    let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
+    let Range { low, high } = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
+    let marks = equal_ratios(low, high, STEPS).map(|im| Mark::new(im, p_overturning(im, mu, beta)));
+    let step = SLENDERNESS.iter().filter(|alpha| cases.structure.alpha_rad > **alpha).count();
+    let line = Layer::line(&called(&cases.structure), Ink::Step(step), marks).unlisted();
+    (beta > 0.0).then_some(Curve { mu, beta, line })
 }
 
 /// Curves of P_ro over PGV, IM5 and the hybrid measure of the paper's exponent; a row a suite of ten or more.
@@ -59,13 +52,15 @@ pub fn universality(groups: &[Cases]) -> Figure {
     ];
     let mut suites = by(groups, |cases| &cases.suite);
     suites.sort_by_key(|groups| order(groups[0]));
-    let panels = suites.into_iter().flat_map(|groups| {
-        measures.map(|(label, measure)| {
-            let curves: Vec<Curve> = groups.iter().filter_map(|cases| Curve::fit(cases, measure)).collect();
-            (curves.len() >= LEAST_STRUCTURES).then(|| panel(label, &curves, groups.len()))
-        })
-    });
-    let mut panels: Vec<Panel> = panels.flatten().collect();
+    let mut panels = Vec::new();
+    for groups in suites {
+        for (label, measure) in measures {
+            let curves: Vec<Curve> = groups.iter().filter_map(|cases| fit(cases, measure)).collect();
+            if curves.len() >= LEAST_STRUCTURES {
+                panels.push(panel(label, curves, &groups));
+            }
+        }
+    }
     one_width(&mut panels);
     let caption = "Lognormal curves of structures that at least ten of one set (one seed) of motions \
                    overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between them over \
@@ -77,23 +72,24 @@ pub fn universality(groups: &[Cases]) -> Figure {
 /// Makes a decade as wide in each panel.
 fn one_width(panels: &mut [Panel]) {
     let span = |panel: &Panel| Range::over(panel.drawn().flat_map(|layer| &layer.marks).map(|mark| mark.x));
-    let widest = panels.iter().map(|panel| span(panel).high / span(panel).low).fold(1.0, f64::max);
-    for panel in panels {
-        let (middle, half) = ((span(panel).low * span(panel).high).sqrt(), (1.1 * widest).sqrt());
+    let spans: Vec<Range> = panels.iter().map(span).collect();
+    let widest = spans.iter().map(|span| span.high / span.low).fold(1.0, f64::max);
+    for (panel, Range { low, high }) in panels.iter_mut().zip(spans) {
+        let (middle, half) = ((low * high).sqrt(), (1.1 * widest).sqrt());
         panel.x.range = Some([middle / half, middle * half]);
     }
 }
 
-fn panel(label: &str, curves: &[Curve], structures: usize) -> Panel {
+fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
     let n = curves.len() as f64;
     let mean = |of: fn(&Curve) -> f64| curves.iter().map(of).sum::<f64>() / n;
     let (mu, beta) = (mean(|curve| curve.mu), mean(|curve| curve.beta));
     let sd = (curves.iter().map(|curve| (curve.mu - mu).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
-    let suite = motions_of(curves[0].cases.suite.as_deref().unwrap_or("motions"));
-    let title = format!("{suite}, {n} of {structures}: sd / *β* {}", number::fixed(sd / beta, 2));
+    let ratio = number::fixed(sd / beta, 2);
+    let title = format!("{}, {n} of {}: sd / *β* {ratio}", motions(groups[0]), groups.len());
     let [low, high] = SLENDERNESS;
     let colours = [format!("*α* ≤ {low} rad"), format!("{low} to {high} rad"), format!("> {high} rad")];
     let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Step(step), []));
-    let layers = keys.chain(curves.iter().map(Curve::layer)).collect();
+    let layers = keys.chain(curves.into_iter().map(|curve| curve.line)).collect();
     Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
 }
