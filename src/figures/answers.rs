@@ -3,11 +3,11 @@
 
 use rockfrag_core::fragility::{LimitState, Peak};
 use rockfrag_core::hazard::FragilityPoint;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
-use rockfrag_core::statistics::{Interval, Range};
 
 use super::common::estimate;
-use crate::answer::{Answer, AtSite, ObjectColumns, over_all};
+use crate::answer::{Answer, AtSite, ObjectColumns};
 use crate::chart::text::literal;
 use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
@@ -39,21 +39,25 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
 }
 
 /// The fragility of one object with all its limit states, or overturning of several, the weakest first: a
-/// figure for each peak.
-pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
-    if let [answer] = answers {
-        let curve = |one: &Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
-        let curves = over_all([*answer]).filter_map(curve);
-        let panels = sketch(&answer.object).into_iter().chain(curves).collect();
-        return vec![Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels)];
-    }
+/// panel for each peak.
+pub fn fragilities(answers: &[&Answer]) -> Figure {
     let over_pga: Vec<&Answer> = answers.iter().filter_map(|answer| answer.over_pga.as_deref()).collect();
-    let peaks = [("fragility", answers), ("fragility-pga", &over_pga)].into_iter();
-    peaks.filter_map(|(name, answers)| overturning(name, answers)).collect()
+    let peaks = [answers, &over_pga].into_iter();
+    let (title, panels) = match answers {
+        [answer] => {
+            let curve = |one: &&Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
+            let panels = sketch(&answer.object).into_iter().chain(peaks.flatten().filter_map(curve));
+            (answer.object.title(), panels.collect())
+        }
+        _ => {
+            ("How strong a motion overturns each object".to_string(), peaks.filter_map(overturning).collect())
+        }
+    };
+    Figure::new("fragility", &title, 2, HEIGHT, panels)
 }
 
 /// Overturning of several objects over one peak.
-fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
+fn overturning(answers: &[&Answer]) -> Option<Panel> {
     let over = answers.iter().find_map(|answer| answer.fragility.over)?;
     let layer = |(number, answer): (usize, &&Answer)| {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
@@ -63,9 +67,7 @@ fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
     let (what, averaged) = (over.name_and_unit().0, averaged(over));
     let (drawn, all) = (layers.len(), counted(answers.len(), "object"));
     let caption = format!("Overturning under a motion of this {what}, {averaged}: {drawn} of {all}.");
-    let panel = curves_panel("", over, layers);
-    let title = "How strong a motion overturns each object";
-    Some(Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption))
+    Some(curves_panel("", over, layers).explained(caption))
 }
 
 /// How likely each object of a list overturns, the worst first.
@@ -74,24 +76,23 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let drawn = &answers[..answers.len().min(ROWS)];
     let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
     let rows = drawn.iter().map(|answer| {
-        let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
-        let (name, p) = (answer.object.called(), answer.p.p_overturning);
-        let others = answer.alternatives.iter().zip(0..);
-        let mut values: Vec<_> =
-            others.map(|(one, at)| (one.p.p_overturning, Ink::Data(at), literal(&one.file))).collect();
-        let words = match &answer.before {
-            _ if !values.is_empty() => String::new(),
-            Some(before) => {
-                values.push((before.p, Ink::Muted, "before".to_string()));
-                values.push((p, Ink::Data(1), "after".to_string()));
-                before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times()))
+        let p = answer.p.p_overturning;
+        let (values, words) = match (&answer.alternatives[..], &answer.before) {
+            ([], None) => {
+                let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
+                (vec![(p, Ink::Step(band), bands[band].to_string())], PERCENT.value(p))
             }
-            None => {
-                values.push((p, Ink::Step(band), bands[band].to_string()));
-                PERCENT.value(p)
+            ([], Some(before)) => (
+                vec![(before.p, Ink::Muted, "before".to_string()), (p, Ink::Data(1), "after".to_string())],
+                before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times())),
+            ),
+            (others, _) => {
+                let value =
+                    |(at, one): (usize, &Answer)| (one.p.p_overturning, Ink::Data(at), literal(&one.file));
+                (others.iter().enumerate().map(value).collect(), String::new())
             }
         };
-        ProbabilityRow { name, values, words }
+        ProbabilityRow { name: answer.object.called(), values, words }
     });
     let rows: Vec<ProbabilityRow> = rows.collect();
     let others = answers.len() - rows.len();
@@ -242,10 +243,9 @@ fn shares(drawn: &AtSite) -> Option<Panel> {
     if outline.is_empty() || all <= 0.0 {
         return None;
     }
-    let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
     let beyond = PERCENT.one(parts.beyond / all);
     let caption = format!("Rate of overturning by {what}; {beyond} of it lies beyond the hazard curve.");
-    let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
+    let y = Axis::linear(&format!("% of the rate per unit of ln {what}"));
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
     Some(Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption))
 }
@@ -254,9 +254,8 @@ fn shares(drawn: &AtSite) -> Option<Panel> {
 fn unknown(answer: &Answer) -> Option<Panel> {
     let mut parts = answer.uncertainty.source_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let most = (Z_95 * parts.first()?.1).exp();
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
-    let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
+    let x = Axis::log(&format!("factor on the {what}, either way"));
     let names = Axis::names(parts.iter().map(|(source, _)| {
         let [name, remedy, _] = of_source(*source);
         format!("{name}: {remedy}")
@@ -268,7 +267,8 @@ fn unknown(answer: &Answer) -> Option<Panel> {
     let caption = format!(
         "How far each may raise or lower the {what} of overturning (95 % limits), and what would narrow it."
     );
-    Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
+    let panel = Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) };
+    (!parts.is_empty()).then_some(panel)
 }
 
 fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
@@ -284,35 +284,24 @@ struct ProbabilityRow {
     words: String,
 }
 
-/// Percents above which an axis is linear.
-const LINEAR: f64 = 10.0;
-
-/// A panel of rows, in percent, over all values and the target.
+/// A panel of rows, in percent, with the target.
 fn probabilities(title: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
-    let mut layers: Vec<Layer> = Vec::new();
-    let mut ends: Vec<f64> = target.into_iter().collect();
-    for (at, row) in rows.iter().enumerate() {
-        for (p, ink, label) in &row.values {
-            ends.extend([p.value, p.low, p.high].into_iter().flatten());
-            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-            let mark = Mark { low, high, ..Mark::new(x, at as f64) };
-            match layers.iter_mut().find(|layer| layer.ink == *ink) {
-                Some(layer) => layer.marks.push(mark),
-                None => layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
-            }
-        }
-    }
-    let Range { low, high } = Range::over(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
-    let label = "probability of overturning, %";
-    let x = if low > LINEAR { Axis::linear(label) } else { Axis::log(label) };
-    let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));
-    let mut panel = Panel::new(title, x, names, Vec::new());
+    let mut panel = Panel::new(title, Axis::log("probability of overturning, %"), names, Vec::new());
     if let Some(target) = target {
         let (ends, text) = ([rows.len() as f64 - 0.5, -0.5], format!("target {}", PERCENT.one(target)));
         panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);
     }
-    panel.layers.extend(layers);
+    for (at, row) in rows.iter().enumerate() {
+        for (p, ink, label) in &row.values {
+            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
+            let mark = Mark { low, high, ..Mark::new(x, at as f64) };
+            match panel.layers.iter_mut().find(|layer| layer.name == *label && layer.ink == *ink) {
+                Some(layer) => layer.marks.push(mark),
+                None => panel.layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
+            }
+        }
+    }
     panel.words.extend(in_margin(rows.iter().map(|row| row.words.clone())));
     panel
 }
