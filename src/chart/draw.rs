@@ -5,8 +5,8 @@ use std::slice;
 
 use anyhow::Context;
 
-use super::axis::{Ruler, Tick};
-use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Symbol};
+use super::axis::Ruler;
+use super::figure::{Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Symbol};
 use super::picture::{LETTER_WIDTH, LETTERS, Picture, Point, SMALL, course, round, width};
 use super::text::{escape, html, literal, words};
 use crate::number;
@@ -135,7 +135,7 @@ impl Panel {
 
     /// The room below it, for ticks and label of x.
     fn below(&self) -> f64 {
-        if self.frame == Frame::ToScale || self.x.label.is_empty() { GAP } else { BELOW }
+        if self.is_to_scale || self.x.label.is_empty() { GAP } else { BELOW }
     }
 
     /// The height of the area of its data, where that of others is given.
@@ -150,7 +150,7 @@ impl Panel {
         let left = self.names().iter().map(room).fold(LEFT, f64::max).min(NAMES * across);
         let words = self.words.iter().filter(|words| words.position == LabelPosition::Margin);
         let right = words.map(|words| room(&words.text)).fold(RIGHT, f64::max);
-        [if self.frame == Frame::ToScale { 4.0 } else { left }, right]
+        [if self.is_to_scale { 4.0 } else { left }, right]
     }
 }
 
@@ -198,7 +198,7 @@ impl Picture {
     }
 
     fn panel(&mut self, panel: &Panel, x: &Ruler, y: &Ruler) {
-        if panel.frame == Frame::Axes {
+        if !panel.is_to_scale {
             self.axes(panel, x, y);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
@@ -229,7 +229,7 @@ impl Picture {
         let mut lines = String::new();
         let letters = ((x.from - 4.0) / (SMALL * LETTER_WIDTH)) as usize;
         let ticks = y.ticks((((y.from - y.to) / 18.0) as usize).max(5));
-        for Tick { value, label } in ticks.into_iter().filter(|tick| !tick.label.is_empty()) {
+        for (value, label) in ticks.into_iter().filter(|(_, label)| !label.is_empty()) {
             let at = y.at(value);
             lines += &course(&[Point::new(x.from, at), Point::new(x.to, at)]);
             let (ink, label) = match panel.names() {
@@ -241,7 +241,7 @@ impl Picture {
         self.stroke(&lines, Ink::Rule, 0.45, "");
         let bottom = y.from;
         let mut axis = course(&[Point::new(x.from, bottom), Point::new(x.to, bottom)]);
-        for Tick { value, label } in x.ticks(((x.to - x.from) / 28.0) as usize) {
+        for (value, label) in x.ticks(((x.to - x.from) / 28.0) as usize) {
             let (at, length) = (x.at(value), if label.is_empty() { 1.6 } else { 3.0 });
             axis += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
             if !panel.x.label.is_empty() {

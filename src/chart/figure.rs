@@ -30,16 +30,8 @@ pub struct Panel {
     pub words: Vec<Words>,
     /// Enough to read the panel alone; below it on the page.
     pub caption: String,
-    pub frame: Frame,
-}
-
-/// What surrounds the data of a panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Frame {
-    #[default]
-    Axes,
-    /// Nothing: a drawing to scale, as long up as across.
-    ToScale,
+    /// Whether it is a drawing without axes, as long up as across.
+    pub is_to_scale: bool,
 }
 
 /// An axis; its range is that of the layers unless it is given.
@@ -140,8 +132,6 @@ pub enum Ink {
     /// Guides, behind data.
     Rule,
     Data(usize),
-    /// A step from cold to hot: 0, 1 or 2.
-    Step(usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
@@ -197,7 +187,9 @@ impl Layer {
 }
 
 impl Figure {
-    pub fn new(name: &str, title: &str, columns: usize, height: f64, panels: Vec<Panel>) -> Figure {
+    /// Leaves panels without marks out.
+    pub fn new(name: &str, title: &str, columns: usize, height: f64, mut panels: Vec<Panel>) -> Figure {
+        panels.retain(|panel| panel.drawn().next().is_some());
         let columns = columns.min(panels.len());
         let [name, title] = [name, title].map(str::to_string);
         Figure { name, title, columns, height, panels, ..Figure::default() }

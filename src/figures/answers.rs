@@ -9,15 +9,12 @@ use rockfrag_core::statistics::normal::Z_95;
 use super::common::estimate;
 use crate::answer::{Answer, AtSite, ObjectColumns};
 use crate::chart::text::literal;
-use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
 
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 150.0;
-/// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
-/// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
-pub const BANDS: [f64; 2] = [0.02, 0.1];
 /// The most objects of a list, and the most curves in one panel.
 const ROWS: usize = 60;
 const CURVES: usize = 6;
@@ -27,14 +24,9 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
     let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
     let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
     panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, answer, drawn)));
-    if variants.len() > 1 {
-        panels.push(variants_panel(variants, answer));
-    }
-    if let Some(drawn) = drawn {
-        panels.push(hazard_panel(drawn));
-        panels.extend(shares(drawn));
-    }
-    panels.extend(unknown(answer));
+    panels.extend((variants.len() > 1).then(|| variants_panel(variants, answer)));
+    panels.extend(drawn.into_iter().flat_map(|drawn| [hazard_panel(drawn), shares(drawn)]));
+    panels.push(unknown(answer));
     Figure::new("object", &answer.object.title(), 2, HEIGHT, panels)
 }
 
@@ -74,14 +66,10 @@ fn overturning(answers: &[&Answer]) -> Option<Panel> {
 pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let answers: Vec<&&Answer> = answers.iter().filter(|answer| answer.is_answered()).collect();
     let drawn = &answers[..answers.len().min(ROWS)];
-    let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
     let rows = drawn.iter().map(|answer| {
         let p = answer.p.p_overturning;
         let (values, words) = match (&answer.alternatives[..], &answer.before) {
-            ([], None) => {
-                let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
-                (vec![(p, Ink::Step(band), bands[band].to_string())], PERCENT.value(p))
-            }
+            ([], None) => (vec![(p, Ink::Data(0), String::new())], PERCENT.value(p)),
             ([], Some(before)) => (
                 vec![(before.p, Ink::Muted, "before".to_string()), (p, Ink::Data(1), "after".to_string())],
                 before.ratio.value.map_or(String::new(), |_| format!("× {}", before.times())),
@@ -92,17 +80,16 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
                 (others.iter().enumerate().map(value).collect(), String::new())
             }
         };
-        ProbabilityRow { name: answer.object.called(), values, words }
+        Row { name: answer.object.called(), values, words }
     });
-    let rows: Vec<ProbabilityRow> = rows.collect();
+    let rows: Vec<Row> = rows.collect();
     let others = answers.len() - rows.len();
     let others = if others > 0 { format!("; {others} further rows are in the table") } else { String::new() };
     let caption = format!("Probability of overturning {when} with 95 % limits{others}.");
-    let panel = (!rows.is_empty()).then(|| probabilities("", &rows, target));
     let is_compared = drawn.iter().any(|answer| answer.before.is_some());
     let what = if is_compared { "changed object" } else { "object" };
     let title = &format!("How likely each {what} is to overturn");
-    Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
+    Figure::new("list", title, 1, 0.0, vec![probabilities("", rows, target)]).explained(caption)
 }
 
 /// The object as it stands over the side to which it falls first, and as it is about to tip.
@@ -149,7 +136,7 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
         (turned[2].x, turned[2].y, format!("tips at {degrees}°"), LabelPosition::Right, Ink::Data(1)),
     ];
     let words = words.map(|(x, y, text, position, ink)| Words { x, y, text, position, ink }).into();
-    let panel = Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers) };
+    let panel = Panel { is_to_scale: true, words, ..Panel::new("The object", x, y, layers) };
     Some(panel.explained(format!("To scale, {}; it tips over its weaker side.", object.place())))
 }
 
@@ -204,15 +191,14 @@ fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
     let rows = variants.iter().enumerate().map(|(place, Answer { variant, p, .. })| {
         let (ink, p) = (Ink::Data(usize::from(place == 0)), p.p_overturning);
         let name = variant.clone().unwrap_or_default();
-        ProbabilityRow { name, values: vec![(p, ink, String::new())], words: PERCENT.value(p) }
+        Row { name, values: vec![(p, ink, String::new())], words: PERCENT.value(p) }
     });
-    let rows: Vec<ProbabilityRow> = rows.collect();
     let when = answer.when().unwrap_or_default();
     let caption = format!(
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution at its \
          16 and 84 % quantiles. Anchored, it does not rock."
     );
-    probabilities("What would change it", &rows, answer.rates.target).explained(caption)
+    probabilities("What would change it", rows.collect(), answer.rates.target).explained(caption)
 }
 
 fn hazard_panel(drawn: &AtSite) -> Panel {
@@ -223,60 +209,48 @@ fn hazard_panel(drawn: &AtSite) -> Panel {
     for (years, intensity) in drawn.usual() {
         panel.add_upright(intensity, [lowest, 1.0 / years], in_years(years), LabelPosition::Along);
     }
-    let dots = drawn.usual().map(|(years, intensity)| Mark::new(intensity, 1.0 / years));
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("hazard curve", Ink::Text, curve).unlisted());
-    panel.layers.push(Layer::points("usual return periods", Ink::Text, Symbol::Disc, dots).unlisted());
     panel.explained(format!("How often {what} is exceeded at the site."))
 }
 
 /// The share of the rate of overturning by intensity, as a density.
-fn shares(drawn: &AtSite) -> Option<Panel> {
+fn shares(drawn: &AtSite) -> Panel {
     let (what, unit, _) = drawn.peak.name_and_unit();
     let parts = &drawn.parts;
     let all = parts.rates.iter().sum::<f64>() + parts.beyond;
     let mut outline = Vec::new();
-    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates) {
+    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates).filter(|_| all > 0.0) {
         let y = 100.0 * rate / all / (edge[1] / edge[0]).ln();
         outline.extend([edge[0], edge[1]].map(|x| Mark { low: 0.0, high: y, ..Mark::new(x / unit, y) }));
-    }
-    if outline.is_empty() || all <= 0.0 {
-        return None;
     }
     let beyond = PERCENT.one(parts.beyond / all);
     let caption = format!("Rate of overturning by {what}; {beyond} of it lies beyond the hazard curve.");
     let y = Axis::linear(&format!("% of the rate per unit of ln {what}"));
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
-    Some(Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption))
+    Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption)
 }
 
 /// What is not known, by how far it moves the rate.
-fn unknown(answer: &Answer) -> Option<Panel> {
+fn unknown(answer: &Answer) -> Panel {
     let mut parts = answer.uncertainty.source_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
-    let x = Axis::log(&format!("factor on the {what}, either way"));
-    let names = Axis::names(parts.iter().map(|(source, _)| {
-        let [name, remedy, _] = of_source(*source);
-        format!("{name}: {remedy}")
-    }));
-    let factors = || parts.iter().map(|(_, sd)| (Z_95 * sd).exp());
-    let marks = factors().zip(0_i32..).map(|(x, row)| Mark { low: 1.0, high: x, ..Mark::new(x, row.into()) });
-    let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
-    let words = in_margin(factors().map(|factor| format!("× {}", significant(factor, 2))));
+    let rows = parts.into_iter().map(|(source, sd)| {
+        let ([name, remedy, _], factor) = (of_source(source), (Z_95 * sd).exp());
+        let value = Interval { value: factor, low: 1.0, high: factor }.into();
+        let words = format!("× {}", significant(factor, 2));
+        Row { name: format!("{name}: {remedy}"), values: vec![(value, Ink::Data(0), String::new())], words }
+    });
     let caption = format!(
         "How far each may raise or lower the {what} of overturning (95 % limits), and what would narrow it."
     );
-    let panel = Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) };
-    (!parts.is_empty()).then_some(panel)
+    let x = format!("factor on the {what}, either way");
+    rows_panel("What is not known", &x, rows.collect()).explained(caption)
 }
 
-fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
-    let place = |(row, text)| Words { x: 0.0, y: row, text, position: LabelPosition::Margin, ink: Ink::Text };
-    (0_i32..).map(f64::from).zip(texts).map(place).collect()
-}
-
-struct ProbabilityRow {
+/// An object in a panel of several.
+struct Row {
     name: String,
     /// One below the other, each in a colour that the legend names.
     values: Vec<(Interval<Option<f64>>, Ink, String)>,
@@ -284,24 +258,35 @@ struct ProbabilityRow {
     words: String,
 }
 
-/// A panel of rows, in percent, with the target.
-fn probabilities(title: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
+fn rows_panel(title: &str, x: &str, rows: Vec<Row>) -> Panel {
     let names = Axis::names(rows.iter().map(|row| row.name.clone()));
-    let mut panel = Panel::new(title, Axis::log("probability of overturning, %"), names, Vec::new());
-    if let Some(target) = target {
-        let (ends, text) = ([rows.len() as f64 - 0.5, -0.5], format!("target {}", PERCENT.one(target)));
-        panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);
-    }
-    for (at, row) in rows.iter().enumerate() {
-        for (p, ink, label) in &row.values {
-            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-            let mark = Mark { low, high, ..Mark::new(x, at as f64) };
-            match panel.layers.iter_mut().find(|layer| layer.name == *label && layer.ink == *ink) {
+    let mut panel = Panel::new(title, Axis::log(x), names, Vec::new());
+    for (row, y) in rows.into_iter().zip(0_i32..) {
+        let y = f64::from(y);
+        for (Interval { value, low, high }, ink, label) in row.values {
+            let [x, low, high] = [value, low, high].map(|end| end.unwrap_or(f64::NAN));
+            let mark = Mark { low, high, ..Mark::new(x, y) };
+            match panel.layers.iter_mut().find(|layer| layer.name == label && layer.ink == ink) {
                 Some(layer) => layer.marks.push(mark),
-                None => panel.layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
+                None => panel.layers.push(Layer::new(&label, ink, MarkStyle::Estimates, [mark])),
             }
         }
+        let (text, position) = (row.words, LabelPosition::Margin);
+        panel.words.push(Words { x: 0.0, y, text, position, ink: Ink::Text });
     }
-    panel.words.extend(in_margin(rows.iter().map(|row| row.words.clone())));
+    panel
+}
+
+/// Rows of probabilities in percent, with the target.
+fn probabilities(title: &str, mut rows: Vec<Row>, target: Option<f64>) -> Panel {
+    let ends = [rows.len() as f64 - 0.5, -0.5];
+    for (p, ..) in rows.iter_mut().flat_map(|row| &mut row.values) {
+        *p = p.map(|p| 100.0 * p);
+    }
+    let mut panel = rows_panel(title, "probability of overturning, %", rows);
+    if let Some(target) = target {
+        let text = format!("target {}", PERCENT.one(target));
+        panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);
+    }
     panel
 }

@@ -161,13 +161,12 @@ pub fn quality(fits: &Fits, groups: &[&Cases]) -> Figure {
     };
     let scored = |fit| (CurveFit::group(fit), short_labels(&fit.predictors()), fit.held_out_log_score);
     let scores = Axis::linear("log score of overturning on held-out cases (more is better)");
-    let mut panels = vec![
+    let panels = vec![
         regressions(|fit| fit.r2, Axis::linear("*R*^{2} (more is better)")),
         regressions(|fit| fit.beta, Axis::linear("*β* (less is better)")),
         regressions(zeta, Axis::log("|*ζ*| = *β* / |*b*| (less is better)")),
         dots(fits.curves.iter().map(scored), scores, groups),
     ];
-    panels.retain(|panel| !panel.names().is_empty());
     let caption = "Regressions of the demand and lognormal curves of overturning; without a dot, no fit. Of \
                    two measures, *b* is that of IM4; of two planes, *R*^{2} is about the own side's mean.";
     Figure::new("quality", "Quality of the measures", 2, 0.0, panels).explained(compare(caption, "Figure 8"))

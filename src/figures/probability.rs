@@ -2,8 +2,8 @@
 //! over PGA and PGV.
 
 use rockfrag_core::fragility::{
-    Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, MotionKind, PLANE,
-    Predictors, Tau, beta, lambda, mu,
+    Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, PLANE, Predictors, Tau, beta,
+    lambda, mu,
 };
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::statistics::numerics::{bisect_first_true, equal_ratios};
@@ -33,8 +33,7 @@ const LEVELS: [(f64, Dash); 4] =
 
 /// Figure 10: probability of exceeding the limit state in safe rocking; a panel a group.
 pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
-    let panels = groups.iter().map(|cases| exceeding(fits, cases));
-    let panels = panels.filter(|panel| !panel.layers.is_empty());
+    let panels = groups.iter().map(|cases| exceeding(fits, cases)).collect();
     let caption = format!(
         "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3, \
          and by IM4 alone if it has a curve; bands: 95 %. *P*_{{ex}} jumps, and may fall, where IM4 passes from \
@@ -42,7 +41,7 @@ pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
         number::plain(fits.limit_state)
     );
     let title = "Exceeding the limit state in safe rocking";
-    Figure::new("exceedance", title, 2, 118.0, panels.collect()).explained(compare(&caption, "Figure 10"))
+    Figure::new("exceedance", title, 2, 118.0, panels).explained(compare(&caption, "Figure 10"))
 }
 
 /// P_ex by the planes at quantiles of IM3, and by IM4 alone, each over the IM4 of its cases.
@@ -182,42 +181,36 @@ pub fn maps(fits: &Fits, groups: &[&Cases]) -> Figure {
 }
 
 fn map(fits: &Fits, cases: &Cases) -> Panel {
-    let mut layers = Vec::new();
-    for (label, ink, event) in [("rocks", Ink::Data(0), false), ("overturns", Ink::Data(1), true)] {
+    let points = |label: &str, ink, event| {
         let its = rocked(cases).filter(|(_, overturned)| *overturned == event);
         let its = its.map(|(case, _)| Mark::new(case.peaks.pga_m_s2 / G_M_S2, case.peaks.pgv_m_s));
-        layers.push(Layer::points(label, ink, Symbol::Dot, its));
-    }
-    let all = Range::over(cases.all.iter().map(|case| case.peaks.pga_m_s2));
-    let pga = Range { low: all.low.max(cases.structure.uplift_acceleration_m_s2()), high: all.high };
-    let pgv = Range::over(cases.all.iter().map(|case| case.peaks.pgv_m_s));
-    let pgv = Range { high: 1.5 * pgv.high, ..pgv };
-    for (level, dash) in LEVELS {
-        let line = line(fits, cases, level, pga, pgv);
-        layers.push(Layer::new(&format!("probability {level}"), Ink::Text, MarkStyle::Line(dash), line));
-    }
+        Layer::points(label, ink, Symbol::Dot, its)
+    };
+    let mut layers = vec![points("rocks", Ink::Data(0), false), points("overturns", Ink::Data(1), true)];
+    let lines = fits.calibration(cases).into_iter().flat_map(|calibration| {
+        LEVELS.map(|(level, dash)| {
+            let style = MarkStyle::Line(dash);
+            Layer::new(&format!("probability {level}"), Ink::Text, style, line(calibration, cases, level))
+        })
+    });
+    layers.extend(lines);
     Panel::new(&name(cases), Axis::log("PGA (g)"), Axis::log("PGV (m/s)"), layers)
 }
 
-/// The motions under which a structure overturns with this probability, within these PGA and PGV (m/s2 and
-/// m/s): PGV of each PGA by bisection, as more PGV never lowers the probability.
-fn line(fits: &Fits, cases: &Cases, level: f64, pga: Range, pgv: Range) -> Vec<Mark> {
-    let structure = &cases.structure;
-    let uncalibrated =
-        || Calibration::uncalibrated(MotionKind::from_suite(cases.suite.as_deref()), structure, None);
-    let calibration = fits.calibration(cases).cloned().unwrap_or_else(uncalibrated);
-    let reaches = |pga: f64, ln_pgv: f64| {
-        let peaks = Peaks { pga_m_s2: pga, pgv_m_s: ln_pgv.exp() };
-        let measures = IntensityMeasures::new(structure, peaks, None, None);
-        let p = calibration.probability(structure, &measures, None, Tau::Included);
-        p.is_some_and(|p| p.value >= level && measures.im4 >= 1.0)
+/// The motions under which a structure overturns with this probability: PGV of each PGA by bisection, as more
+/// PGV never lowers the probability.
+fn line(calibration: &Calibration, cases: &Cases, level: f64) -> impl Iterator<Item = Mark> {
+    let over = |peak: fn(&Case) -> f64| Range::over(rocked(cases).map(|(case, _)| peak(case)));
+    let (pga, pgv) = (over(|case| case.peaks.pga_m_s2), over(|case| case.peaks.pgv_m_s));
+    let (least, most) = (pgv.low, 1.5 * pgv.high);
+    let reaches = move |pga_m_s2: f64, pgv_m_s: f64| {
+        let measures = IntensityMeasures::new(&cases.structure, Peaks { pga_m_s2, pgv_m_s }, None, None);
+        let p = calibration.probability(&cases.structure, &measures, None, Tau::Included);
+        p.is_some_and(|p| p.value >= level)
     };
-    let (least, most) = (pgv.low.ln(), pgv.high.ln());
-    let mut marks = Vec::new();
-    for pga in equal_ratios(pga.low, pga.high, STEPS) {
+    equal_ratios(pga.low, pga.high, STEPS).filter_map(move |pga| {
         let is_crossed = reaches(pga, most) && !reaches(pga, least);
-        let ln_pgv = is_crossed.then(|| bisect_first_true(least, most, |ln_pgv| reaches(pga, ln_pgv)));
-        marks.push(Mark::new(pga / G_M_S2, ln_pgv.map_or(f64::NAN, f64::exp)));
-    }
-    marks
+        let pgv = is_crossed.then(|| bisect_first_true(least, most, |pgv| reaches(pga, pgv)))?;
+        Some(Mark::new(pga / G_M_S2, pgv))
+    })
 }

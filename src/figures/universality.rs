@@ -38,7 +38,7 @@ fn fit(cases: &Cases, measure: Over) -> Option<Curve> {
     let Range { low, high } = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
     let marks = equal_ratios(low, high, STEPS).map(|im| Mark::new(im, p_overturning(im, mu, beta)));
     let step = SLENDERNESS.iter().filter(|alpha| cases.structure.alpha_rad > **alpha).count();
-    let line = Layer::line(&called(&cases.structure), Ink::Step(step), marks).unlisted();
+    let line = Layer::line(&called(&cases.structure), Ink::Data(step), marks).unlisted();
     (beta > 0.0).then_some(Curve { mu, beta, line })
 }
 
@@ -89,7 +89,7 @@ fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
     let title = format!("{}, {n} of {}: sd / *β* {ratio}", motions(groups[0]), groups.len());
     let [low, high] = SLENDERNESS;
     let colours = [format!("*α* ≤ {low} rad"), format!("{low} to {high} rad"), format!("> {high} rad")];
-    let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Step(step), []));
+    let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Data(step), []));
     let layers = keys.chain(curves.into_iter().map(|curve| curve.line)).collect();
     Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
 }
