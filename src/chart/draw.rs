@@ -34,7 +34,7 @@ const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BEFORE: f64 = 4.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points above which a line is thin; of a quarter of them, symbols are small.
+/// Number of points above which lines are thin and symbols small.
 const FEW_POINTS: usize = 400;
 /// Room that several values of a row of names take, rows.
 const SPREAD: f64 = 0.64;
@@ -135,7 +135,7 @@ impl Panel {
 
     /// The room below it, for ticks and label of x.
     fn below(&self) -> f64 {
-        if self.is_to_scale || self.x.label.is_empty() { GAP } else { BELOW }
+        if self.x.label.is_empty() { GAP } else { BELOW }
     }
 
     /// The height of the area of its data, where that of others is given.
@@ -269,7 +269,7 @@ impl Picture {
                     Symbol::Dot => (0.9, 0.55),
                     Symbol::Circle | Symbol::Cross => (1.1, 0.7),
                 };
-                let part = if 4 * marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
+                let part = if marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
                 self.symbols(&places, symbol, part * radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {

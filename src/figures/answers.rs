@@ -56,10 +56,8 @@ fn overturning(answers: &[&Answer]) -> Option<Panel> {
         Layer::line(&answer.object.name_and_floor(), Ink::Data(number), marks)
     };
     let layers: Vec<Layer> = answers.iter().take(CURVES).enumerate().map(layer).collect();
-    let (what, averaged) = (over.name_and_unit().0, averaged(over));
     let (drawn, all) = (layers.len(), counted(answers.len(), "object"));
-    let caption = format!("Overturning under a motion of this {what}, {averaged}: {drawn} of {all}.");
-    Some(curves_panel("", over, layers).explained(caption))
+    Some(curves_panel(over, layers, &format!(": {drawn} of {all}")))
 }
 
 /// How likely each object of a list overturns, the worst first.
@@ -96,24 +94,20 @@ pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
 fn sketch(object: &ObjectColumns) -> Option<Panel> {
     let (width, height, alpha_rad) = (object.width_m?, object.height_m?, object.alpha_rad?);
     let centre_height = object.centre_height_m.unwrap_or(0.5 * height);
-    let is_weaker = |depth: &f64| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9;
-    let (width, centre_offset) = match object.depth_m.filter(is_weaker) {
-        Some(depth) => (depth, 0.0),
-        None => (width, object.centre_offset_m.unwrap_or(0.0)),
-    };
+    let arm = centre_height * alpha_rad.tan();
+    let width = object.depth_m.filter(|depth| (0.5 * depth - arm).abs() < 1e-9 * depth).unwrap_or(width);
     let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height), (0.0, 0.0)];
     let corners = corners.map(|(x, y)| Mark::new(x, y));
     // It tips over its nearer edge, which is drawn at the right.
     let edge = Mark::new(width, 0.0);
-    let centre = Mark::new(0.5 * width + centre_offset.abs(), centre_height);
+    let centre = Mark::new(width - arm, centre_height);
     let tipped = |mark: Mark| {
         let (sin, cos, away) = (alpha_rad.sin(), alpha_rad.cos(), mark.x - width);
         Mark::new(width + away * cos + mark.y * sin, mark.y * cos - away * sin)
     };
     let turned = corners.map(tipped);
     let room = 0.16 * height.max(width);
-    let right = turned.iter().map(|corner| corner.x).fold(width, f64::max);
-    let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
+    let (right, top) = (turned[2].x, height.max(turned[3].y));
     let ground = [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0));
     let body = [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) });
     let layers = vec![
@@ -155,8 +149,15 @@ fn peak_axis(peak: Peak) -> Axis {
     Axis::log(&format!("{what} ({symbol})"))
 }
 
-fn curves_panel(title: &str, over: Peak, layers: Vec<Layer>) -> Panel {
-    Panel::new(title, peak_axis(over), Axis::linear("probability, %").over(0.0, 101.0), layers)
+/// Curves over a peak, averaged over the other; `which` says more of the motions or the curves.
+fn curves_panel(over: Peak, layers: Vec<Layer>, which: &str) -> Panel {
+    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
+    let [what, averaged] = [over, other].map(|peak| peak.name_and_unit().0);
+    let caption = format!(
+        "Probability under a motion of this {what}, averaged over the {averaged} of such motions{which}."
+    );
+    let y = Axis::linear("probability, %").over(0.0, 101.0);
+    Panel::new(&format!("Fragility over {what}"), peak_axis(over), y, layers).explained(caption)
 }
 
 /// The limit states of one object, with the usual intensities of a site.
@@ -168,23 +169,16 @@ fn fragility_panel(over: Peak, points: &[FragilityPoint], of: &Answer, drawn: Op
         Layer::line(&too_far, Ink::Data(0), failure),
         Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
     ];
-    let mut panel = curves_panel(&format!("Fragility over {}", over.name_and_unit().0), over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
+    let mut panel = curves_panel(over, layers, drawn.map_or("", |_| " at the site"));
     for (years, intensity) in drawn.iter().flat_map(|drawn| drawn.usual()) {
         panel.add_upright(intensity, [0.0, 100.0], in_years(years), LabelPosition::Along);
     }
-    let (what, place) = (over.name_and_unit().0, if drawn.is_some() { " at the site" } else { "" });
-    panel.explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(over)))
+    panel
 }
 
 fn in_years(years: f64) -> String {
     format!("{} years", count(years as usize))
-}
-
-/// Over what a fragility is averaged.
-fn averaged(over: Peak) -> String {
-    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
-    format!("averaged over the {} of such motions", other.name_and_unit().0)
 }
 
 fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {

@@ -87,8 +87,8 @@ pub fn title(structure: &str, suite: Option<&str>) -> String {
 }
 
 pub fn order(cases: &Cases) -> usize {
-    let suite = cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
-    suite.map_or(usize::MAX, |suite| suite as usize)
+    let suite = cases.suite.as_deref().unwrap_or_default().parse();
+    suite.map_or(usize::MAX, |suite: Suite| suite as usize)
 }
 
 /// Names the structure and suite of some cases; marked text.

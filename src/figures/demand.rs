@@ -54,17 +54,11 @@ pub fn demand(groups: &[&Cases]) -> Figure {
         |cases: &&Cases| demand_over(cases, velocity(cases, 0).1, |row| Some(velocity(cases, row).0));
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
     let panels: Vec<Panel> = planes.chain(groups.iter().map(of_velocity)).chain(over_period).collect();
-    let mut caption = format!(
-        "Outcomes over velocity and period of the pulse, and demand over each, from {LEAST} on; in strips \
-         below and above, motions that do not rock the structure and that overturn it."
+    let caption = format!(
+        "Outcomes over velocity and period of the pulse, with Eq. 5 for the pulse alone, *V*_{{p}} = *g* tan *α* \
+         *T*_{{p}} / *c* with the median *c* of PGA *T*_{{p}} / *V*_{{p}}; demand over each, from {LEAST} on, and \
+         in strips below and above, motions that do not rock the structure and that overturn it."
     );
-    caption.extend(c.map(|c| {
-        let c = number::significant(c, 2);
-        format!(
-            " Line: Eq. 5 for the pulse alone, *V*_{{p}} = *g* tan *α* *T*_{{p}} / *c* with *c* = {c}, the \
-             median of PGA *T*_{{p}} / *V*_{{p}}."
-        )
-    }));
     let columns = groups.len().clamp(2, 3);
     Figure::new("demand", "Rocking over velocity and period of the pulse", columns, 120.0, panels)
         .explained(compare(&caption, "Figures 3 and 4"))

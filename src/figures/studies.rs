@@ -6,21 +6,21 @@ use rockfrag_core::statistics::Range;
 use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
 
-use super::common::{name_of, observed_shares, ratio_bins, scaled_label, title};
+use super::common::{name_of, observed_shares, scaled_label, title};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
 use crate::table::rows::by;
 
-/// The most panels, bins of the intensities of an analysis, and steps of its curve.
+/// The most panels, levels of an analysis, and steps of its curve.
 const PANELS: usize = 24;
-const BINS: usize = 15;
+const LEVELS: usize = 15;
 const STEPS: usize = 100;
 
 /// Incremental dynamic analyses: the lowest overturning intensities, and the share overturned at each level.
 pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) -> Figure {
     let panels = fits.iter().take(PANELS).map(|fit| capacity_panel(fit, rows, stripes)).collect();
     let caption = "Fractions of the motions that overturn the structure at or below an intensity and, with \
-                   95 % limits, near it: fewer, where it survives a stronger version of a motion.";
+                   95 % limits, at it: fewer, where it survives a stronger version of a motion.";
     Figure::new("ida", "Incremental dynamic analysis", 2, 118.0, panels).explained(caption)
 }
 
@@ -29,7 +29,8 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
     let cases: Vec<(f64, bool)> = its.collect();
     let levels = Range::over(cases.iter().map(|(intensity, _)| *intensity));
-    let shares = observed_shares(&cases, 1, ratio_bins(levels, BINS));
+    let shares = observed_shares(&cases, 1, |level| level.to_bits() as usize);
+    let every = shares.len().div_ceil(LEVELS).max(1);
     let its = rows.iter().filter(|row| row.group() == fit.group());
     let capacities = its.filter_map(|row| match row.found.status {
         CapacityStatus::Below => row.found.overturning.or(Some(levels.low)),
@@ -49,7 +50,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let layers = vec![
         Layer::line("lognormal curve", Ink::Data(1), curve),
         Layer::line("at or below the intensity", Ink::Muted, steps),
-        Layer::new("near the intensity", Ink::Data(0), MarkStyle::Estimates, shares),
+        Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares.into_iter().step_by(every)),
     ];
     let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::fraction("fraction that overturns"));
     Panel::new(&title(&name_of(&fit.structure), fit.suite.as_deref()), x, y, layers)

@@ -13,8 +13,6 @@ use crate::table::rows::by;
 /// The fewest structures of a suite that are drawn.
 const LEAST_STRUCTURES: usize = 10;
 const STEPS: usize = 60;
-/// Slenderness (rad) at which the colour changes.
-const SLENDERNESS: [f64; 2] = [0.15, 0.3];
 
 type Over = fn(&Case) -> Option<f64>;
 
@@ -37,8 +35,7 @@ fn fit(cases: &Cases, measure: Over) -> Option<Curve> {
     let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
     let Range { low, high } = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
     let marks = equal_ratios(low, high, STEPS).map(|im| Mark::new(im, p_overturning(im, mu, beta)));
-    let step = SLENDERNESS.iter().filter(|alpha| cases.structure.alpha_rad > **alpha).count();
-    let line = Layer::line(&called(&cases.structure), Ink::Data(step), marks).unlisted();
+    let line = Layer::line(&called(&cases.structure), Ink::Data(0), marks).unlisted();
     (beta > 0.0).then_some(Curve { mu, beta, line })
 }
 
@@ -87,9 +84,6 @@ fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
     let sd = (curves.iter().map(|curve| (curve.mu - mu).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
     let ratio = number::fixed(sd / beta, 2);
     let title = format!("{}, {n} of {}: sd / *β* {ratio}", motions(groups[0]), groups.len());
-    let [low, high] = SLENDERNESS;
-    let colours = [format!("*α* ≤ {low} rad"), format!("{low} to {high} rad"), format!("> {high} rad")];
-    let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Data(step), []));
-    let layers = keys.chain(curves.into_iter().map(|curve| curve.line)).collect();
+    let layers = curves.into_iter().map(|curve| curve.line).collect();
     Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
 }
