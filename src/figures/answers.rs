@@ -6,10 +6,10 @@ use rockfrag_core::hazard::FragilityPoint;
 use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
 
-use super::common::estimate;
+use super::common::{Row, estimate, rows_panel};
 use crate::answer::{Answer, AtSite, ObjectColumns};
 use crate::chart::text::literal;
-use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
 
@@ -239,36 +239,8 @@ fn unknown(answer: &Answer) -> Panel {
     let caption = format!(
         "How far each may raise or lower the {what} of overturning (95 % limits), and what would narrow it."
     );
-    let x = format!("factor on the {what}, either way");
-    rows_panel("What is not known", &x, rows.collect()).explained(caption)
-}
-
-/// An object in a panel of several.
-struct Row {
-    name: String,
-    /// One below the other, each in a colour that the legend names.
-    values: Vec<(Interval<Option<f64>>, Ink, String)>,
-    /// At the right edge.
-    words: String,
-}
-
-fn rows_panel(title: &str, x: &str, rows: Vec<Row>) -> Panel {
-    let names = Axis::names(rows.iter().map(|row| row.name.clone()));
-    let mut panel = Panel::new(title, Axis::log(x), names, Vec::new());
-    for (row, y) in rows.into_iter().zip(0_i32..) {
-        let y = f64::from(y);
-        for (Interval { value, low, high }, ink, label) in row.values {
-            let [x, low, high] = [value, low, high].map(|end| end.unwrap_or(f64::NAN));
-            let mark = Mark { low, high, ..Mark::new(x, y) };
-            match panel.layers.iter_mut().find(|layer| layer.name == label && layer.ink == ink) {
-                Some(layer) => layer.marks.push(mark),
-                None => panel.layers.push(Layer::new(&label, ink, MarkStyle::Estimates, [mark])),
-            }
-        }
-        let (text, position) = (row.words, LabelPosition::Margin);
-        panel.words.push(Words { x: 0.0, y, text, position, ink: Ink::Text });
-    }
-    panel
+    let x = Axis::log(&format!("factor on the {what}, either way"));
+    rows_panel("What is not known", x, rows.collect()).explained(caption)
 }
 
 /// Rows of probabilities in percent, with the target.
@@ -277,7 +249,7 @@ fn probabilities(title: &str, mut rows: Vec<Row>, target: Option<f64>) -> Panel 
     for (p, ..) in rows.iter_mut().flat_map(|row| &mut row.values) {
         *p = p.map(|p| 100.0 * p);
     }
-    let mut panel = rows_panel(title, "probability of overturning, %", rows);
+    let mut panel = rows_panel(title, Axis::log("probability of overturning, %"), rows);
     if let Some(target) = target {
         let text = format!("target {}", PERCENT.one(target));
         panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);

@@ -9,12 +9,12 @@ use rockfrag_core::fragility::{
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::rocking::Outcome;
-use rockfrag_core::statistics::Range;
 use rockfrag_core::statistics::scores::sample_quantile;
+use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::{DEMAND, Fits, compare, label, name, short_label, short_labels};
+use super::common::{DEMAND, Fits, Row, compare, label, name, rows_panel, short_label, short_labels};
 use crate::chart::text::file_words;
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, MarkStyle, Panel, Symbol};
+use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel, Symbol};
 use crate::number;
 use crate::table::rows::by;
 
@@ -180,17 +180,16 @@ fn dots<'a>(
     x: Axis,
     groups: &[&Cases],
 ) -> Panel {
-    let known: Vec<_> = numbers.filter_map(|(group, row, value)| Some((group, row, value?))).collect();
-    let rows = by(&known, |(_, row, _)| row);
-    let layers = groups.iter().enumerate().map(|(number, cases)| {
-        let marks = rows.iter().zip(0_i32..).filter_map(|(row, place)| {
-            let (.., value) = row.iter().find(|(group, ..)| *group == cases.group())?;
-            Some(Mark::new(*value, f64::from(place)))
+    let numbers: Vec<_> = numbers.collect();
+    let rows = by(&numbers, |(_, row, _)| row).into_iter().map(|its| {
+        let values = its.iter().filter_map(|(group, _, value)| {
+            let number = groups.iter().position(|cases| cases.group() == *group)?;
+            let value = Interval { value: Some((*value)?), low: None, high: None };
+            Some((value, Ink::Data(number), name(groups[number])))
         });
-        Layer::new(&name(cases), Ink::Data(number), MarkStyle::Estimates, marks)
+        Row { name: its[0].1.clone(), values: values.collect(), words: String::new() }
     });
-    let layers = layers.collect();
-    Panel::new("", x, Axis::names(rows.iter().map(|row| row[0].1.clone())), layers)
+    rows_panel("", x, rows.collect())
 }
 
 /// Figure 9: the demand and its two planes (Eqs. 17 and 18), seen along the line in which they meet.

@@ -12,7 +12,7 @@ use rockfrag_core::statistics::{FitStatus, Range};
 use rockfrag_core::units::G_M_S2;
 
 use super::common::{
-    Fits, called, compare, estimate, label, motions, name, observed_shares, order, ratio_bins, rocked,
+    Fits, STEPS, called, compare, estimate, label, motions, name, observed_shares, order, ratio_bins, rocked,
     short_labels,
 };
 use crate::chart::text::minus;
@@ -20,8 +20,7 @@ use crate::chart::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyl
 use crate::number;
 use crate::table::rows::by;
 
-/// Number of points of a curve; the most bins of observed shares, and cases for each on average.
-const STEPS: usize = 120;
+/// The most bins of observed shares, and cases for each on average.
 const BINS: usize = 14;
 const CASES: usize = 8;
 /// Quantiles of IM3 at which P_ex is drawn.

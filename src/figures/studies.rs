@@ -1,20 +1,17 @@
 //! Incremental dynamic analysis and validation.
 
-use rockfrag_core::fragility::p_overturning;
 use rockfrag_core::rocking::CapacityStatus;
 use rockfrag_core::statistics::Range;
-use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::studies::ReliabilityBin;
 
-use super::common::{name_of, observed_shares, scaled_label, title};
+use super::common::{lognormal, name_of, observed_shares, scaled_label, title};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
 use crate::table::rows::by;
 
-/// The most panels, levels of an analysis, and steps of its curve.
+/// The most panels, and levels of an analysis.
 const PANELS: usize = 24;
 const LEVELS: usize = 15;
-const STEPS: usize = 100;
 
 /// Incremental dynamic analyses: the lowest overturning intensities, and the share overturned at each level.
 pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) -> Figure {
@@ -42,11 +39,8 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     for (k, &x) in capacities.iter().enumerate() {
         steps.extend([k, k + 1].map(|k| Mark::new(x, k as f64 / fit.n.max(1) as f64)));
     }
-    let mut curve = Vec::new();
-    if let (Some((theta, beta)), true) = (fit.theta.value.zip(fit.beta.value), levels.low < levels.high) {
-        let x = equal_ratios(levels.low, levels.high, STEPS);
-        curve.extend(x.map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))));
-    }
+    let fitted = fit.theta.value.zip(fit.beta.value).filter(|_| levels.low < levels.high).into_iter();
+    let curve = fitted.flat_map(|(theta, beta)| lognormal(levels, theta.ln(), beta));
     let layers = vec![
         Layer::line("lognormal curve", Ink::Data(1), curve),
         Layer::line("at or below the intensity", Ink::Muted, steps),

@@ -1,18 +1,16 @@
 //! How nearly one curve of overturning holds for structures of any p and alpha.
 
-use rockfrag_core::fragility::{Case, Cases, Measure, beta, hybrid_measure, mu, p_overturning};
+use rockfrag_core::fragility::{Case, Cases, Measure, beta, hybrid_measure, mu};
 use rockfrag_core::paper::EXAMPLE_LAMBDA;
-use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
 
-use super::common::{called, label, motions, order, rocked};
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
+use super::common::{called, label, lognormal, motions, order, rocked};
+use crate::chart::{Axis, Figure, Ink, Layer, Panel};
 use crate::number;
 use crate::table::rows::by;
 
 /// The fewest structures of a suite that are drawn.
 const LEAST_STRUCTURES: usize = 10;
-const STEPS: usize = 60;
 
 type Over = fn(&Case) -> Option<f64>;
 
@@ -33,9 +31,8 @@ fn fit(cases: &Cases, measure: Over) -> Option<Curve> {
     }
     let fit = probit(&[&ln_im], &events).ok()?.fit;
     let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
-    let Range { low, high } = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
-    let marks = equal_ratios(low, high, STEPS).map(|im| Mark::new(im, p_overturning(im, mu, beta)));
-    let line = Layer::line(&called(&cases.structure), Ink::Data(0), marks).unlisted();
+    let range = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
+    let line = Layer::line(&called(&cases.structure), Ink::Data(0), lognormal(range, mu, beta)).unlisted();
     (beta > 0.0).then_some(Curve { mu, beta, line })
 }
 
