@@ -80,17 +80,15 @@ fn marked(cases: &Cases, place: impl Fn(usize) -> Option<Mark>) -> Vec<Layer> {
 /// Velocity over period, and the line of Eq. 5 with `c` = PGA Tp / Vp; without pulses it is not known.
 fn outcomes(cases: &Cases, c: Option<f64>) -> Panel {
     let mut layers = marked(cases, |row| Some(Mark::new(period(cases, row)?, velocity(cases, row).0)));
-    let marks = layers.iter().flat_map(|layer| &layer.marks);
-    let over = |value: fn(&Mark) -> f64| Range::over(marks.clone().map(value));
-    let (periods, velocities) = (over(|mark| mark.x), over(|mark| mark.y));
+    let velocities = Range::over(layers.iter().flat_map(|layer| &layer.marks).map(|mark| mark.y));
     let [rest, safe, fallen] = [0, 1, 2].map(|layer| number::count(layers[layer].marks.len()));
     let caption = format!("{rest} motions do not rock the structure, {safe} rock it, {fallen} overturn it.");
     layers.extend(c.map(|c| {
-        let limit = |period_s| cases.structure.uplift_acceleration_m_s2() * period_s / c;
-        let line = [periods.low, periods.high].map(|period_s| Mark::new(period_s, limit(period_s)));
+        let period_s = |velocity_m_s| c * velocity_m_s / cases.structure.uplift_acceleration_m_s2();
+        let line = [velocities.low, velocities.high].map(|velocity| Mark::new(period_s(velocity), velocity));
         Layer::line("Eq. 5 for the pulse alone", Ink::Text, line)
     }));
-    let y = Axis::log(velocity(cases, 0).1).over(0.9 * velocities.low, 1.1 * velocities.high);
+    let y = Axis::log(velocity(cases, 0).1);
     Panel::new(&name(cases), Axis::log(PERIOD), y, layers).explained(caption)
 }
 

@@ -11,6 +11,8 @@ use crate::table::rows::by;
 
 /// The fewest structures of a suite that are drawn.
 const LEAST_STRUCTURES: usize = 10;
+/// How many times the mean median an axis reaches up and down: a decade is as wide in each panel.
+const REACH: f64 = 10.0;
 
 type Over = fn(&Case) -> Option<f64>;
 
@@ -55,23 +57,11 @@ pub fn universality(groups: &[Cases]) -> Figure {
             }
         }
     }
-    one_width(&mut panels);
     let caption = "Lognormal curves of structures that at least ten of one set (one seed) of motions \
                    overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between them over \
                    their mean *β*. Over a measure for which curves are universal, all medians *θ* are one.";
     let title = "Universality of the curves of overturning";
     Figure::new("universality", title, 3, 118.0, panels).explained(caption)
-}
-
-/// Makes a decade as wide in each panel.
-fn one_width(panels: &mut [Panel]) {
-    let span = |panel: &Panel| Range::over(panel.drawn().flat_map(|layer| &layer.marks).map(|mark| mark.x));
-    let spans: Vec<Range> = panels.iter().map(span).collect();
-    let widest = spans.iter().map(|span| span.high / span.low).fold(1.0, f64::max);
-    for (panel, Range { low, high }) in panels.iter_mut().zip(spans) {
-        let (middle, half) = ((low * high).sqrt(), (1.1 * widest).sqrt());
-        panel.x.range = Some([middle / half, middle * half]);
-    }
 }
 
 fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
@@ -82,5 +72,6 @@ fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
     let ratio = number::fixed(sd / beta, 2);
     let title = format!("{}, {n} of {}: sd / *β* {ratio}", motions(groups[0]), groups.len());
     let layers = curves.into_iter().map(|curve| curve.line).collect();
-    Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
+    let x = Axis::log(label).over(mu.exp() / REACH, mu.exp() * REACH);
+    Panel::new(&title, x, Axis::fraction("*P*_{ro}"), layers)
 }
