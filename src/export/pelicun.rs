@@ -29,7 +29,8 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 /// cumulative distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let of_states = LimitState::VARIANTS.iter().flat_map(|state| STATE.map(|name| format!("{state}-{name}")));
+    let states = LimitState::VARIANTS.iter();
+    let of_states = states.flat_map(|state| STATE.map(|name| format!("{state}-{name}")));
     writer.write_record(COMMON.map(str::to_string).into_iter().chain(of_states))?;
     for function in &model.functions {
         let (name, unit_name, unit) = demand(function.peak);

@@ -55,9 +55,10 @@ pub fn demand(groups: &[&Cases]) -> Figure {
     let over_period = pulses.clone().map(|cases| demand_over(cases, PERIOD, |row| period(cases, row)));
     let panels: Vec<Panel> = planes.chain(groups.iter().map(of_velocity)).chain(over_period).collect();
     let caption = format!(
-        "Outcomes over velocity and period of the pulse, with Eq. 5 for the pulse alone, *V*_{{p}} = *g* tan *α* \
-         *T*_{{p}} / *c* with the median *c* of PGA *T*_{{p}} / *V*_{{p}}; demand over each, from {LEAST} on, and \
-         in strips below and above, motions that do not rock the structure and that overturn it."
+        "Outcomes over velocity and period of the pulse, with Eq. 5 for the pulse alone, *V*_{{p}} = *g* \
+         tan *α* *T*_{{p}} / *c* with the median *c* of PGA *T*_{{p}} / *V*_{{p}}; demand over each, from \
+         {LEAST} on, and in strips below and above, motions that do not rock the structure and that overturn \
+         it."
     );
     let columns = groups.len().clamp(2, 3);
     Figure::new("demand", "Rocking over velocity and period of the pulse", columns, 120.0, panels)

@@ -34,9 +34,9 @@ const LEVELS: [(f64, Dash); 4] =
 pub fn exceedance(fits: &Fits, groups: &[&Cases]) -> Figure {
     let panels = groups.iter().map(|cases| exceeding(fits, cases)).collect();
     let caption = format!(
-        "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of IM3, \
-         and by IM4 alone if it has a curve; bands: 95 %. *P*_{{ex}} jumps, and may fall, where IM4 passes from \
-         one plane to the other.",
+        "Probability that |*θ*|_{{max}} exceeds {} *α* in safe rocking, by the two planes at quantiles of \
+         IM3, and by IM4 alone if it has a curve; bands: 95 %. *P*_{{ex}} jumps, and may fall, where IM4 \
+         passes from one plane to the other.",
         number::plain(fits.limit_state)
     );
     let title = "Exceeding the limit state in safe rocking";

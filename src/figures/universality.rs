@@ -58,8 +58,9 @@ pub fn universality(groups: &[Cases]) -> Figure {
         }
     }
     let caption = "Lognormal curves of structures that at least ten of one set (one seed) of motions \
-                   overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between them over \
-                   their mean *β*. Over a measure for which curves are universal, all medians *θ* are one.";
+                   overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between \
+                   them over their mean *β*. Over a measure for which curves are universal, all medians *θ* \
+                   are one.";
     let title = "Universality of the curves of overturning";
     Figure::new("universality", title, 3, 118.0, panels).explained(caption)
 }
