@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use rockfrag_core::statistics::Range;
 
-use super::figure::{Axis, Frame, Panel, Scale};
+use super::figure::{Axis, Panel, Scale};
 use super::text::minus;
 use crate::number;
 
@@ -19,12 +19,8 @@ pub struct Ruler<'a> {
     pub to: f64,
 }
 
-/// A mark on an axis; a minor one has no label.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Tick {
-    pub value: f64,
-    pub label: String,
-}
+/// A value on an axis and its label; a minor one has none.
+pub type Tick = (f64, String);
 
 /// Margin beyond the data on either side, of the range.
 const MARGIN: f64 = 0.04;
@@ -46,7 +42,7 @@ impl Panel {
             if self.names().is_empty() { &mut y } else { &mut x }.extend([mark.low, mark.high]);
         }
         let rulers = [Ruler::new(&self.x, x, across), Ruler::new(&self.y, y, upwards)];
-        if self.frame == Frame::Axes {
+        if !self.is_to_scale {
             return rulers;
         }
         let per_point = rulers.map(|ruler| (ruler.high - ruler.low) / (ruler.to - ruler.from).abs());
@@ -87,8 +83,7 @@ impl<'a> Ruler<'a> {
     pub fn ticks(&self, most: usize) -> Vec<Tick> {
         match self.scale {
             Scale::Names(names) => {
-                let rows = names.iter().enumerate();
-                rows.map(|(row, name)| Tick { value: row as f64, label: name.clone() }).collect()
+                names.iter().enumerate().map(|(row, name)| (row as f64, name.clone())).collect()
             }
             Scale::Linear => self.linear_ticks(most),
             Scale::Log => self.log_ticks(most),
@@ -103,7 +98,7 @@ impl<'a> Ruler<'a> {
         let decimals = (-step.log10().floor()).max(0.0) as usize;
         let all = (self.low / step - 1e-9).ceil() as i64..=(self.high / step + 1e-9).floor() as i64;
         let values = all.map(|k| k as f64 * step);
-        values.map(|value| Tick { value, label: minus(number::fixed(value, decimals)) }).collect()
+        values.map(|value| (value, minus(number::fixed(value, decimals)))).collect()
     }
 
     /// Labels as many ticks as fit: several in each decade, one, or one in so many decades.
@@ -120,8 +115,8 @@ impl<'a> Ruler<'a> {
         let factors = if self.high - self.low < 6.0 { &factors[..] } else { &factors[..1] };
         let minor = self.in_decades(factors, 1, usize::MAX).unwrap_or_default();
         let minor = minor.into_iter().filter(|value| !labelled.contains(value));
-        let minor = minor.map(|value| Tick { value, label: String::new() });
-        labelled.iter().map(|&value| Tick { value, label: label(value) }).chain(minor).collect()
+        let minor = minor.map(|value| (value, String::new()));
+        labelled.iter().map(|&value| (value, label(value))).chain(minor).collect()
     }
 
     /// These multiples of each power of ten, or of one in so many; if they are not too many.

@@ -5,8 +5,8 @@ use std::slice;
 
 use anyhow::Context;
 
-use super::axis::{Ruler, Tick};
-use super::figure::{Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Symbol};
+use super::axis::Ruler;
+use super::figure::{Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Scale, Symbol};
 use super::picture::{LETTER_WIDTH, LETTERS, Picture, Point, SMALL, course, round, width};
 use super::text::{escape, html, literal, words};
 use crate::number;
@@ -34,7 +34,7 @@ const LEGEND: f64 = 12.0;
 const MARK: f64 = 14.0;
 const BEFORE: f64 = 4.0;
 const BETWEEN: f64 = 12.0;
-/// Number of points above which a line is thin; of a quarter of them, symbols are small.
+/// Number of points above which lines are thin and symbols small.
 const FEW_POINTS: usize = 400;
 /// Room that several values of a row of names take, rows.
 const SPREAD: f64 = 0.64;
@@ -135,7 +135,7 @@ impl Panel {
 
     /// The room below it, for ticks and label of x.
     fn below(&self) -> f64 {
-        if self.frame == Frame::ToScale || self.x.label.is_empty() { GAP } else { BELOW }
+        if self.x.label.is_empty() { GAP } else { BELOW }
     }
 
     /// The height of the area of its data, where that of others is given.
@@ -150,7 +150,7 @@ impl Panel {
         let left = self.names().iter().map(room).fold(LEFT, f64::max).min(NAMES * across);
         let words = self.words.iter().filter(|words| words.position == LabelPosition::Margin);
         let right = words.map(|words| room(&words.text)).fold(RIGHT, f64::max);
-        [if self.frame == Frame::ToScale { 4.0 } else { left }, right]
+        [if self.is_to_scale { 4.0 } else { left }, right]
     }
 }
 
@@ -198,7 +198,7 @@ impl Picture {
     }
 
     fn panel(&mut self, panel: &Panel, x: &Ruler, y: &Ruler) {
-        if panel.frame == Frame::Axes {
+        if !panel.is_to_scale {
             self.axes(panel, x, y);
         }
         // What lies beyond the axes is cut off by the inner picture; words may stand over its edge.
@@ -229,7 +229,7 @@ impl Picture {
         let mut lines = String::new();
         let letters = ((x.from - 4.0) / (SMALL * LETTER_WIDTH)) as usize;
         let ticks = y.ticks((((y.from - y.to) / 18.0) as usize).max(5));
-        for Tick { value, label } in ticks.into_iter().filter(|tick| !tick.label.is_empty()) {
+        for (value, label) in ticks.into_iter().filter(|(_, label)| !label.is_empty()) {
             let at = y.at(value);
             lines += &course(&[Point::new(x.from, at), Point::new(x.to, at)]);
             let (ink, label) = match panel.names() {
@@ -241,7 +241,7 @@ impl Picture {
         self.stroke(&lines, Ink::Rule, 0.45, "");
         let bottom = y.from;
         let mut axis = course(&[Point::new(x.from, bottom), Point::new(x.to, bottom)]);
-        for Tick { value, label } in x.ticks(((x.to - x.from) / 28.0) as usize) {
+        for (value, label) in x.ticks(((x.to - x.from) / 28.0) as usize) {
             let (at, length) = (x.at(value), if label.is_empty() { 1.6 } else { 3.0 });
             axis += &course(&[Point::new(at, bottom), Point::new(at, bottom + length)]);
             if !panel.x.label.is_empty() {
@@ -269,7 +269,7 @@ impl Picture {
                     Symbol::Dot => (0.9, 0.55),
                     Symbol::Circle | Symbol::Cross => (1.1, 0.7),
                 };
-                let part = if 4 * marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
+                let part = if marks.len() > FEW_POINTS { 0.7 } else { 1.0 };
                 self.symbols(&places, symbol, part * radius, ink, opacity);
             }
             MarkStyle::Line(dash) => {

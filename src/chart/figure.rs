@@ -30,16 +30,8 @@ pub struct Panel {
     pub words: Vec<Words>,
     /// Enough to read the panel alone; below it on the page.
     pub caption: String,
-    pub frame: Frame,
-}
-
-/// What surrounds the data of a panel.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Frame {
-    #[default]
-    Axes,
-    /// Nothing: a drawing to scale, as long up as across.
-    ToScale,
+    /// Whether it is a drawing without axes, as long up as across.
+    pub is_to_scale: bool,
 }
 
 /// An axis; its range is that of the layers unless it is given.
@@ -65,8 +57,6 @@ pub enum Scale {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layer {
     pub name: String,
-    /// Of several groups in a panel, the one that it shows.
-    pub series: String,
     /// Whether the legend has it; of one name it has the first layer.
     pub is_listed: bool,
     pub ink: Ink,
@@ -142,8 +132,6 @@ pub enum Ink {
     /// Guides, behind data.
     Rule,
     Data(usize),
-    /// A step from cold to hot: 0, 1 or 2.
-    Step(usize),
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, strum::IntoStaticStr)]
@@ -157,8 +145,8 @@ pub enum Dash {
 
 /// Upper bound of the points of a layer: a picture shows no more.
 const MOST_POINTS: usize = 5000;
-const COLUMNS: &str = "panel,series,layer,x_is,x,y_is,y,row,low,high,n,\
-                       panel_number,layer_number,x_scale,y_scale,style,form,colour";
+const COLUMNS: &str = "panel_number,panel,layer,x_is,x,y_is,y,row,low,high,n,\
+                       layer_number,x_scale,y_scale,colour,style,form";
 
 impl Mark {
     pub fn new(x: f64, y: f64) -> Mark {
@@ -173,8 +161,8 @@ impl Mark {
 impl Layer {
     /// Without a name, it is not in the legend.
     pub fn new(name: &str, ink: Ink, style: MarkStyle, marks: impl IntoIterator<Item = Mark>) -> Layer {
-        let (name, is_listed, series) = (name.to_string(), !name.is_empty(), String::new());
-        Layer { name, series, is_listed, ink, style, marks: marks.into_iter().collect() }
+        let (name, is_listed) = (name.to_string(), !name.is_empty());
+        Layer { name, is_listed, ink, style, marks: marks.into_iter().collect() }
     }
 
     /// Draws points; of too many, some that are spread over all.
@@ -199,7 +187,9 @@ impl Layer {
 }
 
 impl Figure {
-    pub fn new(name: &str, title: &str, columns: usize, height: f64, panels: Vec<Panel>) -> Figure {
+    /// Leaves panels without marks out.
+    pub fn new(name: &str, title: &str, columns: usize, height: f64, mut panels: Vec<Panel>) -> Figure {
+        panels.retain(|panel| panel.drawn().next().is_some());
         let columns = columns.min(panels.len());
         let [name, title] = [name, title].map(str::to_string);
         Figure { name, title, columns, height, panels, ..Figure::default() }
@@ -209,45 +199,36 @@ impl Figure {
         Figure { caption: caption.into(), ..self }
     }
 
-    /// Comma-separated values: a row a mark, and a row for each of the words; a layer without a name has the
-    /// title of its panel.
+    /// Comma-separated values: a row a mark; a layer without a name has the title of its panel.
     pub fn csv(&self) -> anyhow::Result<String> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(COLUMNS.split(','))?;
-        for (panel, number) in self.panels.iter().zip(1_i32..) {
+        for (panel, panel_number) in self.panels.iter().zip(1_i32..) {
             let [title, x_is, y_is] = [&panel.title, &panel.x.label, &panel.y.label].map(|text| words(text));
             let [x_scale, y_scale] = [&panel.x.scale, &panel.y.scale].map(<&str>::from);
-            let number = number.to_string();
-            let mut write = |[series, name]: [&str; 2], mark: Mark, kind: [&str; 3], ink: Ink| {
-                let [series, name] = [series, if name.is_empty() { &panel.title } else { name }].map(words);
-                let [x, y, low, high, n] = &[mark.x, mark.y, mark.low, mark.high, mark.n].map(written);
-                let row = panel.names().get(mark.y as usize).map_or(String::new(), |row| words(row));
-                let ([layer, style, form], ink) = (kind, ink.in_file());
-                let place = [&title, &series, &name, &x_is, x, &y_is, y, &row, low, high, n];
-                let kind = [&number, layer, x_scale, y_scale, style, form, &ink];
-                writer.write_record(place.map(String::as_str).into_iter().chain(kind))
-            };
             for (layer, number) in panel.drawn().zip(1_i32..) {
-                let number = number.to_string();
+                let [panel_number, number] = [panel_number, number].map(|number| number.to_string());
+                let (name, colour) = (words(&layer.name), layer.ink.in_file());
+                let name = if name.is_empty() { &title } else { &name };
                 let form = match layer.style {
                     MarkStyle::Line(dash) => dash.into(),
                     MarkStyle::Points(symbol) => symbol.into(),
                     MarkStyle::Estimates => "",
                 };
-                let kind = [number.as_str(), layer.style.into(), form];
-                let names = [&layer.series[..], &layer.name];
-                layer.marks.iter().try_for_each(|mark| write(names, *mark, kind, layer.ink))?;
-            }
-            for Words { x, y, text, ink, .. } in &panel.words {
-                write(["", text], Mark::new(*x, *y), ["", "words", ""], *ink)?;
+                for mark in &layer.marks {
+                    let numbers = [mark.x, mark.y, mark.low, mark.high, mark.n];
+                    let [x, y, low, high, n] = &numbers
+                        .map(|value| if value.is_finite() { value.to_string() } else { String::new() });
+                    let row = panel.names().get(mark.y as usize).map_or(String::new(), |row| words(row));
+                    let place =
+                        [&panel_number, &title, name, &x_is, x, &y_is, y, &row, low, high, n, &number];
+                    let kind = [x_scale, y_scale, &colour, layer.style.into(), form];
+                    writer.write_record(place.map(String::as_str).into_iter().chain(kind))?;
+                }
             }
         }
         Ok(String::from_utf8(writer.into_inner()?)?)
     }
-}
-
-fn written(value: f64) -> String {
-    if value.is_finite() { value.to_string() } else { String::new() }
 }
 
 impl Panel {

@@ -14,7 +14,5 @@ mod picture;
 pub mod text;
 
 pub use draw::{DPI, html_of_panels, png, svg};
-pub use figure::{
-    Axis, Dash, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words,
-};
+pub use figure::{Axis, Dash, Figure, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
 pub use picture::round;

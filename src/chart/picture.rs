@@ -14,32 +14,27 @@ pub const LETTER_WIDTH: f64 = 0.54;
 /// Width of the line of a circle or cross, of its radius.
 const OUTLINE: f64 = 0.45;
 
-/// The colours in a file, and their names on the page, by [`Ink::place`]. Data: Okabe & Ito's palette without
-/// its yellow, too faint on white.
-const COLOURS: [&str; 12] = [
-    "#1b1f24", "#5d646d", "#d8dce1", "#0069a8", "#cf5412", "#00916b", "#c06a97", "#d99400", "#4aa3d8",
-    "#4f86a6", "#d98a00", "#b8321f",
-];
-const NAMES: [&str; 12] =
-    ["ink", "muted", "rule", "data0", "data1", "data2", "data3", "data4", "data5", "step0", "step1", "step2"];
+/// The colours of data in a file: Okabe & Ito's palette without its yellow, too faint on white.
+const DATA: [&str; 6] = ["#0069a8", "#cf5412", "#00916b", "#c06a97", "#d99400", "#4aa3d8"];
 
 impl Ink {
-    fn place(self) -> usize {
-        match self {
-            Ink::Text => 0,
-            Ink::Muted => 1,
-            Ink::Rule => 2,
-            Ink::Data(number) => 3 + number % 6,
-            Ink::Step(number) => 9 + number.min(2),
-        }
-    }
-
     pub fn in_file(self) -> String {
-        COLOURS[self.place()].to_string()
+        let colour = match self {
+            Ink::Text => "#1b1f24",
+            Ink::Muted => "#5d646d",
+            Ink::Rule => "#d8dce1",
+            Ink::Data(number) => DATA[number % DATA.len()],
+        };
+        colour.to_string()
     }
 
     pub fn in_page(self) -> String {
-        format!("var(--{})", NAMES[self.place()])
+        match self {
+            Ink::Text => "var(--ink)".to_string(),
+            Ink::Muted => "var(--muted)".to_string(),
+            Ink::Rule => "var(--rule)".to_string(),
+            Ink::Data(number) => format!("var(--data{})", number % DATA.len()),
+        }
     }
 }
 

@@ -55,10 +55,10 @@ pub fn document(table: &AnswerTable) -> Document {
         overview: remedies(table, &when).into_iter().chain(places).filter(|_| !several).collect(),
         tables: vec![rows],
         notes: doubts(&answered),
-        figures: match over {
+        figures: vec![match over {
             Some(_) => answers::fragilities(&answered),
-            None => vec![answers::list(&news, &when, worst.rates.target)],
-        },
+            None => answers::list(&news, &when, worst.rates.target),
+        }],
         sections: sections.collect(),
         ..Document::default()
     }

@@ -25,10 +25,10 @@ pub fn document(table: &AnswerTable, answer: &Answer, detail: &Detail) -> Docume
         assumptions: assumptions(&[answer]),
         notes: answer.uncertainty.warnings.iter().map(|doubts| literal(doubts)).collect(),
         tables: answer.is_answered().then(|| numbers(&when, answer, &detail.variants)).into_iter().collect(),
-        figures: match answer.fragility.over {
+        figures: vec![match answer.fragility.over {
             Some(_) => answers::fragilities(&[answer]),
-            None => vec![answers::object(answer, &detail.variants, detail.at_site.as_ref())],
-        },
+            None => answers::object(answer, &detail.variants, detail.at_site.as_ref()),
+        }],
         ..Document::default()
     }
 }

@@ -29,11 +29,9 @@ fn demand(peak: Peak) -> (&'static str, &'static str, f64) {
 /// cumulative distribution, which must rise from 0 (just below uplift) to 1 (just above the last level).
 pub fn parameters(model: &FragilityModel) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
-    let mut names = COMMON.map(str::to_string).to_vec();
-    for state in LimitState::VARIANTS {
-        names.extend(STATE.map(|name| format!("{state}-{name}")));
-    }
-    writer.write_record(names)?;
+    let states = LimitState::VARIANTS.iter();
+    let of_states = states.flat_map(|state| STATE.map(|name| format!("{state}-{name}")));
+    writer.write_record(COMMON.map(str::to_string).into_iter().chain(of_states))?;
     for function in &model.functions {
         let (name, unit_name, unit) = demand(function.peak);
         // Directional: the peaks are those of one component of motion, which pelicun must not enlarge to that

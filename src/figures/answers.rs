@@ -3,21 +3,18 @@
 
 use rockfrag_core::fragility::{LimitState, Peak};
 use rockfrag_core::hazard::FragilityPoint;
+use rockfrag_core::statistics::Interval;
 use rockfrag_core::statistics::normal::Z_95;
-use rockfrag_core::statistics::{Interval, Range};
 
-use super::common::estimate;
-use crate::answer::{Answer, AtSite, ObjectColumns, over_all};
+use super::common::{Row, estimate, rows_panel};
+use crate::answer::{Answer, AtSite, ObjectColumns};
 use crate::chart::text::literal;
-use crate::chart::{Axis, Figure, Frame, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Symbol, Words};
+use crate::chart::{Axis, Figure, Ink, LabelPosition, Layer, Mark, Panel, Symbol, Words};
 use crate::document::phrases::of_source;
 use crate::number::{self, PERCENT, count, counted, significant};
 
 /// Height of the area of the data of a panel, points.
 const HEIGHT: f64 = 150.0;
-/// Probabilities of overturning, in the exposure time, that part the bands of a figure: those of the
-/// earthquakes that codes design for and consider, with 10 and 2 % in 50 years.
-pub const BANDS: [f64; 2] = [0.02, 0.1];
 /// The most objects of a list, and the most curves in one panel.
 const ROWS: usize = 60;
 const CURVES: usize = 6;
@@ -27,105 +24,90 @@ pub fn object(answer: &Answer, variants: &[Answer], drawn: Option<&AtSite>) -> F
     let mut panels: Vec<Panel> = sketch(&answer.object).into_iter().collect();
     let fragility = drawn.and_then(|drawn| drawn.fragility.as_ref());
     panels.extend(fragility.map(|curve| fragility_panel(curve.over, &curve.points, answer, drawn)));
-    if variants.len() > 1 {
-        panels.push(variants_panel(variants, answer));
-    }
-    if let Some(drawn) = drawn {
-        panels.push(hazard_panel(drawn));
-        panels.extend(shares(drawn));
-    }
-    panels.extend(unknown(answer));
+    panels.extend((variants.len() > 1).then(|| variants_panel(variants, answer)));
+    panels.extend(drawn.into_iter().flat_map(|drawn| [hazard_panel(drawn), shares(drawn)]));
+    panels.push(unknown(answer));
     Figure::new("object", &answer.object.title(), 2, HEIGHT, panels)
 }
 
 /// The fragility of one object with all its limit states, or overturning of several, the weakest first: a
-/// figure for each peak.
-pub fn fragilities(answers: &[&Answer]) -> Vec<Figure> {
-    if let [answer] = answers {
-        let curve = |one: &Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
-        let curves = over_all([*answer]).filter_map(curve);
-        let panels = sketch(&answer.object).into_iter().chain(curves).collect();
-        return vec![Figure::new("fragility", &answer.object.title(), 2, HEIGHT, panels)];
-    }
+/// panel for each peak.
+pub fn fragilities(answers: &[&Answer]) -> Figure {
     let over_pga: Vec<&Answer> = answers.iter().filter_map(|answer| answer.over_pga.as_deref()).collect();
-    let peaks = [("fragility", answers), ("fragility-pga", &over_pga)].into_iter();
-    peaks.filter_map(|(name, answers)| overturning(name, answers)).collect()
+    let peaks = [answers, &over_pga].into_iter();
+    let (title, panels) = match answers {
+        [answer] => {
+            let curve = |one: &&Answer| Some(fragility_panel(one.fragility.over?, &one.points, one, None));
+            let panels = sketch(&answer.object).into_iter().chain(peaks.flatten().filter_map(curve));
+            (answer.object.title(), panels.collect())
+        }
+        _ => {
+            ("How strong a motion overturns each object".to_string(), peaks.filter_map(overturning).collect())
+        }
+    };
+    Figure::new("fragility", &title, 2, HEIGHT, panels)
 }
 
 /// Overturning of several objects over one peak.
-fn overturning(name: &str, answers: &[&Answer]) -> Option<Figure> {
+fn overturning(answers: &[&Answer]) -> Option<Panel> {
     let over = answers.iter().find_map(|answer| answer.fragility.over)?;
     let layer = |(number, answer): (usize, &&Answer)| {
         let marks = curve(over, &answer.points, LimitState::Overturning, answers.len() < 3);
         Layer::line(&answer.object.called(), Ink::Data(number), marks)
     };
     let layers: Vec<Layer> = answers.iter().take(CURVES).enumerate().map(layer).collect();
-    let (what, averaged) = (over.name_and_unit().0, averaged(over));
     let (drawn, all) = (layers.len(), counted(answers.len(), "object"));
-    let caption = format!("Overturning under a motion of this {what}, {averaged}: {drawn} of {all}.");
-    let panel = curves_panel("", over, layers);
-    let title = "How strong a motion overturns each object";
-    Some(Figure::new(name, title, 1, HEIGHT, vec![panel]).explained(caption))
+    Some(curves_panel(over, layers, &format!(": {drawn} of {all}")))
 }
 
 /// How likely each object of a list overturns, the worst first.
 pub fn list(answers: &[&Answer], when: &str, target: Option<f64>) -> Figure {
     let answers: Vec<&&Answer> = answers.iter().filter(|answer| answer.is_answered()).collect();
     let drawn = &answers[..answers.len().min(ROWS)];
-    let bands = ["below 2 %", "2 to 10 %", "above 10 %"];
     let rows = drawn.iter().map(|answer| {
-        let band = BANDS.iter().filter(|end| answer.severity() > **end).count();
-        let (name, p) = (answer.object.called(), answer.p.p_overturning);
-        let others = answer.alternatives.iter().zip(0..);
-        let mut values: Vec<_> =
-            others.map(|(one, at)| (one.p.p_overturning, Ink::Data(at), literal(&one.file))).collect();
-        let words = match &answer.before {
-            _ if !values.is_empty() => String::new(),
-            Some(before) => {
-                values.push((before.p, Ink::Muted, "before".to_string()));
-                values.push((p, Ink::Data(1), "after".to_string()));
-                before.ratio.value.map_or(String::new(), |times| format!("× {}", significant(times, 2)))
-            }
-            None => {
-                values.push((p, Ink::Step(band), bands[band].to_string()));
-                PERCENT.value(p)
+        let p = answer.p.p_overturning;
+        let (values, words) = match (&answer.alternatives[..], &answer.before) {
+            ([], None) => (vec![(p, Ink::Data(0), String::new())], PERCENT.value(p)),
+            ([], Some(before)) => (
+                vec![(before.p, Ink::Muted, "before".to_string()), (p, Ink::Data(1), "after".to_string())],
+                before.ratio.value.map_or(String::new(), |times| format!("× {}", significant(times, 2))),
+            ),
+            (others, _) => {
+                let value =
+                    |(at, one): (usize, &Answer)| (one.p.p_overturning, Ink::Data(at), literal(&one.file));
+                (others.iter().enumerate().map(value).collect(), String::new())
             }
         };
-        ProbabilityRow { name, values, words }
+        Row { name: answer.object.called(), values, words }
     });
-    let rows: Vec<ProbabilityRow> = rows.collect();
+    let rows: Vec<Row> = rows.collect();
     let others = answers.len() - rows.len();
     let others = if others > 0 { format!("; {others} further rows are in the table") } else { String::new() };
     let caption = format!("Probability of overturning {when} with 95 % limits{others}.");
-    let panel = (!rows.is_empty()).then(|| probabilities("", &rows, target));
     let is_compared = drawn.iter().any(|answer| answer.before.is_some());
     let what = if is_compared { "changed object" } else { "object" };
     let title = &format!("How likely each {what} is to overturn");
-    Figure::new("list", title, 1, 0.0, panel.into_iter().collect()).explained(caption)
+    Figure::new("list", title, 1, 0.0, vec![probabilities("", rows, target)]).explained(caption)
 }
 
 /// The object as it stands over the side to which it falls first, and as it is about to tip.
 fn sketch(object: &ObjectColumns) -> Option<Panel> {
     let (width, height, alpha_rad) = (object.width_m?, object.height_m?, object.alpha_rad?);
     let centre_height = object.centre_height_m.unwrap_or(0.5 * height);
-    let is_weaker = |depth: &f64| ((0.5 * depth / centre_height).atan() - alpha_rad).abs() < 1e-9;
-    let (width, centre_offset) = match object.depth_m.filter(is_weaker) {
-        Some(depth) => (depth, 0.0),
-        None => (width, object.centre_offset_m.unwrap_or(0.0)),
-    };
+    let arm = centre_height * alpha_rad.tan();
+    let width = object.depth_m.filter(|depth| (0.5 * depth - arm).abs() < 1e-9 * depth).unwrap_or(width);
     let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height), (0.0, 0.0)];
     let corners = corners.map(|(x, y)| Mark::new(x, y));
     // It tips over its nearer edge, which is drawn at the right.
     let edge = Mark::new(width, 0.0);
-    let centre = Mark::new(0.5 * width + centre_offset.abs(), centre_height);
+    let centre = Mark::new(width - arm, centre_height);
     let tipped = |mark: Mark| {
         let (sin, cos, away) = (alpha_rad.sin(), alpha_rad.cos(), mark.x - width);
         Mark::new(width + away * cos + mark.y * sin, mark.y * cos - away * sin)
     };
     let turned = corners.map(tipped);
     let room = 0.16 * height.max(width);
-    let right = turned.iter().map(|corner| corner.x).fold(width, f64::max);
-    let top = turned.iter().map(|corner| corner.y).fold(height, f64::max);
+    let (right, top) = (turned[2].x, height.max(turned[3].y));
     let ground = [-2.0 * room, right + room].map(|x| Mark::new(x, 0.0));
     let body = [0.0, width].map(|x| Mark { low: 0.0, high: height, ..Mark::new(x, height) });
     let layers = vec![
@@ -148,7 +130,7 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
         (turned[2].x, turned[2].y, format!("tips at {degrees}°"), LabelPosition::Right, Ink::Data(1)),
     ];
     let words = words.map(|(x, y, text, position, ink)| Words { x, y, text, position, ink }).into();
-    let panel = Panel { frame: Frame::ToScale, words, ..Panel::new("The object", x, y, layers) };
+    let panel = Panel { is_to_scale: true, words, ..Panel::new("The object", x, y, layers) };
     Some(panel.explained(format!("To scale, {}; it tips over its weaker side.", object.place())))
 }
 
@@ -167,8 +149,15 @@ fn peak_axis(peak: Peak) -> Axis {
     Axis::log(&format!("{what} ({symbol})"))
 }
 
-fn curves_panel(title: &str, over: Peak, layers: Vec<Layer>) -> Panel {
-    Panel::new(title, peak_axis(over), Axis::linear("probability, %").over(0.0, 101.0), layers)
+/// Curves over a peak, averaged over the other; `which` says more of the motions or the curves.
+fn curves_panel(over: Peak, layers: Vec<Layer>, which: &str) -> Panel {
+    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
+    let [what, averaged] = [over, other].map(|peak| peak.name_and_unit().0);
+    let caption = format!(
+        "Probability under a motion of this {what}, averaged over the {averaged} of such motions{which}."
+    );
+    let y = Axis::linear("probability, %").over(0.0, 101.0);
+    Panel::new(&format!("Fragility over {what}"), peak_axis(over), y, layers).explained(caption)
 }
 
 /// The limit states of one object, with the usual intensities of a site.
@@ -180,38 +169,30 @@ fn fragility_panel(over: Peak, points: &[FragilityPoint], of: &Answer, drawn: Op
         Layer::line(&too_far, Ink::Data(0), failure),
         Layer::line("overturns, with 95 % limits", Ink::Data(1), overturning),
     ];
-    let mut panel = curves_panel(&format!("Fragility over {}", over.name_and_unit().0), over, layers);
     let drawn = drawn.filter(|drawn| drawn.peak == over);
+    let mut panel = curves_panel(over, layers, drawn.map_or("", |_| " at the site"));
     for (years, intensity) in drawn.iter().flat_map(|drawn| drawn.usual()) {
         panel.add_upright(intensity, [0.0, 100.0], in_years(years), LabelPosition::Along);
     }
-    let (what, place) = (over.name_and_unit().0, if drawn.is_some() { " at the site" } else { "" });
-    panel.explained(format!("Probability under a motion of this {what}{place}, {}.", averaged(over)))
+    panel
 }
 
 fn in_years(years: f64) -> String {
     format!("{} years", count(years as usize))
 }
 
-/// Over what a fragility is averaged.
-fn averaged(over: Peak) -> String {
-    let other = if over == Peak::Pga { Peak::Pgv } else { Peak::Pga };
-    format!("averaged over the {} of such motions", other.name_and_unit().0)
-}
-
 fn variants_panel(variants: &[Answer], answer: &Answer) -> Panel {
     let rows = variants.iter().enumerate().map(|(place, Answer { variant, p, .. })| {
         let (ink, p) = (Ink::Data(usize::from(place == 0)), p.p_overturning);
         let name = variant.clone().unwrap_or_default();
-        ProbabilityRow { name, values: vec![(p, ink, String::new())], words: PERCENT.value(p) }
+        Row { name, values: vec![(p, ink, String::new())], words: PERCENT.value(p) }
     });
-    let rows: Vec<ProbabilityRow> = rows.collect();
     let when = answer.when().unwrap_or_default();
     let caption = format!(
         "Probability of overturning {when} with 95 % limits, one thing changed at a time; restitution at its \
          16 and 84 % quantiles. Anchored, it does not rock."
     );
-    probabilities("What would change it", &rows, answer.rates.target).explained(caption)
+    probabilities("What would change it", rows.collect(), answer.rates.target).explained(caption)
 }
 
 fn hazard_panel(drawn: &AtSite) -> Panel {
@@ -222,94 +203,56 @@ fn hazard_panel(drawn: &AtSite) -> Panel {
     for (years, intensity) in drawn.usual() {
         panel.add_upright(intensity, [lowest, 1.0 / years], in_years(years), LabelPosition::Along);
     }
-    let dots = drawn.usual().map(|(years, intensity)| Mark::new(intensity, 1.0 / years));
     let curve = drawn.curve.points().iter().map(|(intensity, rate)| Mark::new(intensity / unit, *rate));
     panel.layers.push(Layer::line("hazard curve", Ink::Text, curve).unlisted());
-    panel.layers.push(Layer::points("usual return periods", Ink::Text, Symbol::Disc, dots).unlisted());
     panel.explained(format!("How often {what} is exceeded at the site."))
 }
 
 /// The share of the rate of overturning by intensity, as a density.
-fn shares(drawn: &AtSite) -> Option<Panel> {
+fn shares(drawn: &AtSite) -> Panel {
     let (what, unit, _) = drawn.peak.name_and_unit();
     let parts = &drawn.parts;
     let all = parts.rates.iter().sum::<f64>() + parts.beyond;
     let mut outline = Vec::new();
-    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates) {
+    for (edge, rate) in parts.edges.windows(2).zip(&parts.rates).filter(|_| all > 0.0) {
         let y = 100.0 * rate / all / (edge[1] / edge[0]).ln();
         outline.extend([edge[0], edge[1]].map(|x| Mark { low: 0.0, high: y, ..Mark::new(x / unit, y) }));
     }
-    if outline.is_empty() || all <= 0.0 {
-        return None;
-    }
-    let most = outline.iter().map(|mark| mark.y).fold(1e-9, f64::max);
     let beyond = PERCENT.one(parts.beyond / all);
     let caption = format!("Rate of overturning by {what}; {beyond} of it lies beyond the hazard curve.");
-    let y = Axis::linear(&format!("% of the rate per unit of ln {what}")).over(0.0, 1.08 * most);
+    let y = Axis::linear(&format!("% of the rate per unit of ln {what}"));
     let layers = vec![Layer::line("", Ink::Data(1), outline)];
-    Some(Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption))
+    Panel::new("Where the rate comes from", peak_axis(drawn.peak), y, layers).explained(caption)
 }
 
 /// What is not known, by how far it moves the rate.
-fn unknown(answer: &Answer) -> Option<Panel> {
+fn unknown(answer: &Answer) -> Panel {
     let mut parts = answer.uncertainty.source_sds();
     parts.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let most = (Z_95 * parts.first()?.1).exp();
     let what = if answer.rates.overturning_per_year.value.is_some() { "rate" } else { "odds" };
-    let x = Axis::log(&format!("factor on the {what}, either way")).over(1.0, 1.1 * most);
-    let names = Axis::names(parts.iter().map(|(source, _)| of_source(*source).join(": ")));
-    let factors = || parts.iter().map(|(_, sd)| (Z_95 * sd).exp());
-    let marks = factors().zip(0_i32..).map(|(x, row)| Mark { low: 1.0, high: x, ..Mark::new(x, row.into()) });
-    let layers = vec![Layer::new("", Ink::Data(0), MarkStyle::Estimates, marks)];
-    let words = in_margin(factors().map(|factor| format!("× {}", significant(factor, 2))));
+    let rows = parts.into_iter().map(|(source, sd)| {
+        let ([name, remedy], factor) = (of_source(source), (Z_95 * sd).exp());
+        let value = Interval { value: factor, low: 1.0, high: factor }.into();
+        let words = format!("× {}", significant(factor, 2));
+        Row { name: format!("{name}: {remedy}"), values: vec![(value, Ink::Data(0), String::new())], words }
+    });
     let caption = format!(
         "How far each may raise or lower the {what} of overturning (95 % limits), and what would narrow it."
     );
-    Some(Panel { words, ..Panel::new("What is not known", x, names, layers).explained(caption) })
+    let x = Axis::log(&format!("factor on the {what}, either way"));
+    rows_panel("What is not known", x, rows.collect()).explained(caption)
 }
 
-fn in_margin(texts: impl IntoIterator<Item = String>) -> Vec<Words> {
-    let place = |(row, text)| Words { x: 0.0, y: row, text, position: LabelPosition::Margin, ink: Ink::Text };
-    (0_i32..).map(f64::from).zip(texts).map(place).collect()
-}
-
-struct ProbabilityRow {
-    name: String,
-    /// One below the other, each in a colour that the legend names.
-    values: Vec<(Interval<Option<f64>>, Ink, String)>,
-    /// At the right edge.
-    words: String,
-}
-
-/// Percents above which an axis is linear.
-const LINEAR: f64 = 10.0;
-
-/// A panel of rows, in percent, over all values and the target.
-fn probabilities(title: &str, rows: &[ProbabilityRow], target: Option<f64>) -> Panel {
-    let mut layers: Vec<Layer> = Vec::new();
-    let mut ends: Vec<f64> = target.into_iter().collect();
-    for (at, row) in rows.iter().enumerate() {
-        for (p, ink, label) in &row.values {
-            ends.extend([p.value, p.low, p.high].into_iter().flatten());
-            let [x, low, high] = [p.value, p.low, p.high].map(|p| p.map_or(f64::NAN, |p| 100.0 * p));
-            let mark = Mark { low, high, ..Mark::new(x, at as f64) };
-            match layers.iter_mut().find(|layer| layer.ink == *ink) {
-                Some(layer) => layer.marks.push(mark),
-                None => layers.push(Layer::new(label, *ink, MarkStyle::Estimates, [mark])),
-            }
-        }
+/// Rows of probabilities in percent, with the target.
+fn probabilities(title: &str, mut rows: Vec<Row>, target: Option<f64>) -> Panel {
+    let ends = [rows.len() as f64 - 0.5, -0.5];
+    for (p, ..) in rows.iter_mut().flat_map(|row| &mut row.values) {
+        *p = p.map(|p| 100.0 * p);
     }
-    let Range { low, high } = Range::over(ends.into_iter().filter(|p| *p > 0.0).map(|p| 100.0 * p));
-    let label = "probability of overturning, %";
-    let x = if low > LINEAR { Axis::linear(label) } else { Axis::log(label) };
-    let x = if low <= high { x.over(low / 1.3, (1.3 * high).min(104.0)) } else { x };
-    let names = Axis::names(rows.iter().map(|row| row.name.clone()));
-    let mut panel = Panel::new(title, x, names, Vec::new());
+    let mut panel = rows_panel(title, Axis::log("probability of overturning, %"), rows);
     if let Some(target) = target {
-        let (ends, text) = ([rows.len() as f64 - 0.5, -0.5], format!("target {}", PERCENT.one(target)));
+        let text = format!("target {}", PERCENT.one(target));
         panel.add_upright(100.0 * target, ends, text, LabelPosition::Above);
     }
-    panel.layers.extend(layers);
-    panel.words.extend(in_margin(rows.iter().map(|row| row.words.clone())));
     panel
 }

@@ -1,17 +1,18 @@
 //! What several figures share: labels, choices of cases and fits, values along an axis, bins.
 
 use rockfrag_core::fragility::{
-    Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, Predictors,
+    Calibration, Case, Cases, CurveFit, DemandFit, DemandModel, Event, Measure, Predictors, p_overturning,
 };
 use rockfrag_core::motion::Suite;
 use rockfrag_core::paper;
 use rockfrag_core::rocking::Structure;
+use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{Interval, Range};
 use rockfrag_core::studies::observed_share;
 use rockfrag_core::warning::UNNAMED;
 
-use crate::chart::Mark;
 use crate::chart::text::literal;
+use crate::chart::{Axis, Ink, LabelPosition, Layer, Mark, MarkStyle, Panel, Words};
 use crate::number;
 use crate::table::responses::ScaledMeasure;
 
@@ -65,7 +66,7 @@ pub fn name_of(structure: &str) -> String {
 }
 
 /// Names the motions of a suite; marked text.
-pub fn motions_of(suite: &str) -> String {
+fn motions_of(suite: &str) -> String {
     match suite.parse() {
         Ok(Suite::Pulse) => "pulses".to_string(),
         Ok(Suite::Csgm) => "combined motions".to_string(),
@@ -75,6 +76,11 @@ pub fn motions_of(suite: &str) -> String {
     }
 }
 
+/// Names the motions of cases; marked text.
+pub fn motions(cases: &Cases) -> String {
+    motions_of(cases.suite.as_deref().unwrap_or("motions"))
+}
+
 /// Joins a structure, marked text, with the suite of synthetic motions.
 pub fn title(structure: &str, suite: Option<&str>) -> String {
     let synthetic = suite.filter(|suite| suite.parse() != Ok(Suite::Record));
@@ -82,8 +88,8 @@ pub fn title(structure: &str, suite: Option<&str>) -> String {
 }
 
 pub fn order(cases: &Cases) -> usize {
-    let suite = cases.suite.as_deref().and_then(|suite| suite.parse::<Suite>().ok());
-    suite.map_or(usize::MAX, |suite| suite as usize)
+    let suite = cases.suite.as_deref().unwrap_or_default().parse();
+    suite.map_or(usize::MAX, |suite: Suite| suite as usize)
 }
 
 /// Names the structure and suite of some cases; marked text.
@@ -143,15 +149,45 @@ pub fn rocked(cases: &Cases) -> impl Iterator<Item = (&Case, bool)> {
     cases.all.iter().filter_map(move |case| Some((case, overturned(case)?)))
 }
 
-/// The cases whose demand in safe rocking has a logarithm, and this demand.
-pub fn demands(cases: &Cases) -> impl Iterator<Item = (&Case, f64)> {
-    let known = cases.all.iter().filter_map(|case| Some((case, case.outcome.demand()?)));
-    known.filter(|(_, demand)| *demand > 0.0)
-}
-
 /// A value of y with its limits.
 pub fn estimate(x: f64, Interval { value, low, high }: Interval) -> Mark {
     Mark { low, high, ..Mark::new(x, value) }
+}
+
+/// Number of points of a curve.
+pub const STEPS: usize = 100;
+
+/// A lognormal curve (Eq. 20) over a range.
+pub fn lognormal(Range { low, high }: Range, mu: f64, beta: f64) -> impl Iterator<Item = Mark> {
+    equal_ratios(low, high, STEPS).map(move |im| Mark::new(im, p_overturning(im, mu, beta)))
+}
+
+/// A row of a panel.
+pub struct Row {
+    pub name: String,
+    /// One below the other, each in a colour that the legend names.
+    pub values: Vec<(Interval<Option<f64>>, Ink, String)>,
+    /// At the right edge.
+    pub words: String,
+}
+
+pub fn rows_panel(title: &str, x: Axis, rows: Vec<Row>) -> Panel {
+    let names = Axis::names(rows.iter().map(|row| row.name.clone()));
+    let mut panel = Panel::new(title, x, names, Vec::new());
+    for (row, y) in rows.into_iter().zip(0_i32..) {
+        let y = f64::from(y);
+        for (Interval { value, low, high }, ink, label) in row.values {
+            let [x, low, high] = [value, low, high].map(|end| end.unwrap_or(f64::NAN));
+            let mark = Mark { low, high, ..Mark::new(x, y) };
+            match panel.layers.iter_mut().find(|layer| layer.name == label && layer.ink == ink) {
+                Some(layer) => layer.marks.push(mark),
+                None => panel.layers.push(Layer::new(&label, ink, MarkStyle::Estimates, [mark])),
+            }
+        }
+        let (text, position) = (row.words, LabelPosition::Margin);
+        panel.words.push(Words { x: 0.0, y, text, position, ink: Ink::Text });
+    }
+    panel
 }
 
 /// Gathers cases (value, whether the event happened) into bins: mean value, observed share with its 95 %

@@ -10,54 +10,41 @@ use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::number;
 use crate::table::motions::MotionRow;
 
-/// Number of values that a line is drawn with; of a pulse and of rotations, which are smooth, fewer.
+/// Number of values that a line is drawn with.
 const VALUES: usize = 900;
-const SMOOTH_VALUES: usize = 450;
 const UNITS: [&str; 2] = ["*a* (m/s^{2})", "*v* (m/s)"];
 /// Free rocking that Figure 5 shows, in 1 / p.
 const TAIL: f64 = 5.0;
 
 /// Figure 1: acceleration and velocity of a combined motion that has its pulse beside it, and of its parts.
 pub fn motion(motions: &[MotionRow]) -> Figure {
-    let combined = motions.iter().find(|whole| is_of(whole, Suite::Csgm) && pulse(whole, motions).is_some());
-    let Some(whole) = combined.or(motions.first()) else { return Figure::default() };
-    let mut parts = vec![("Whole motion", Ink::Data(0), VALUES, whole.acceleration_m_s2.clone())];
-    let mut caption = format!("Acceleration and velocity: {}.", words(whole));
-    if let Some(pulse) = pulse(whole, motions) {
-        let pulse = &pulse.acceleration_m_s2;
-        let rest = whole.acceleration_m_s2.iter().zip(pulse).map(|(whole, pulse)| whole - pulse).collect();
-        parts.insert(0, ("Coherent pulse", Ink::Data(1), SMOOTH_VALUES, pulse.clone()));
-        parts.insert(1, ("High frequencies", Ink::Muted, VALUES, rest));
-        caption = compare(&format!("A combined motion and its parts: {}.", words(whole)), "Figure 1");
-    }
-    let end = whole.acceleration_m_s2.len() as f64 * whole.dt_s;
+    let of = |suite: Suite| motions.iter().filter(move |one| one.suite.as_deref() == Some(suite.into()));
+    let scenario = |motion: &MotionRow| (motion.mw, motion.re_km, motion.tp_s);
+    let pulse = |whole| of(Suite::Pulse).find(|pulse| scenario(pulse) == scenario(whole));
+    let pair = of(Suite::Csgm).find_map(|whole| Some((whole, pulse(whole)?)));
+    let Some((whole, pulse)) = pair else { return Figure::default() };
+    let samples = whole.acceleration_m_s2.iter().zip(&pulse.acceleration_m_s2);
+    let parts = [
+        ("Coherent pulse", Ink::Data(1), pulse.acceleration_m_s2.clone()),
+        ("High frequencies", Ink::Muted, samples.map(|(whole, pulse)| whole - pulse).collect()),
+        ("Whole motion", Ink::Data(0), whole.acceleration_m_s2.clone()),
+    ];
     // The axes of all parts are the same, so that they compare.
     let mut most = [0.0_f64; 2];
     let mut panels = Vec::new();
-    for (title, ink, values, acceleration) in parts {
+    for (title, ink, acceleration) in parts {
         let velocity = measures::velocity(&acceleration, whole.dt_s);
         for (place, series) in [acceleration, velocity].iter().enumerate() {
             most[place] = series.iter().fold(most[place], |most, value| most.max(value.abs()));
-            let line = Layer::line(title, ink, envelope(series, whole.dt_s, values)).unlisted();
-            let time = Axis::linear("time (s)").over(0.0, end);
-            panels.push(Panel::new(title, time, Axis::linear(UNITS[place]), vec![line]));
+            let line = Layer::line(title, ink, envelope(series, whole.dt_s, VALUES)).unlisted();
+            panels.push(Panel::new(title, Axis::linear("time (s)"), Axis::linear(UNITS[place]), vec![line]));
         }
     }
     for (panel, most) in panels.iter_mut().zip(most.into_iter().cycle()) {
         panel.y.range = Some([-1.05 * most, 1.05 * most]);
     }
-    Figure::new("motion", "A ground motion", 2, 60.0, panels).explained(caption)
-}
-
-fn is_of(motion: &MotionRow, suite: Suite) -> bool {
-    motion.suite.as_deref() == Some(suite.into())
-}
-
-fn pulse<'a>(whole: &MotionRow, motions: &'a [MotionRow]) -> Option<&'a MotionRow> {
-    motions.iter().find(|other| {
-        let is_same = (other.mw, other.re_km, other.tp_s) == (whole.mw, whole.re_km, whole.tp_s);
-        is_same && is_of(other, Suite::Pulse)
-    })
+    let caption = format!("A combined motion and its parts: {}.", words(whole));
+    Figure::new("motion", "A ground motion", 2, 60.0, panels).explained(compare(&caption, "Figure 1"))
 }
 
 fn words(motion: &MotionRow) -> String {
@@ -74,22 +61,17 @@ pub fn similarity(groups: &[Cases], motions: &[MotionRow]) -> Option<Figure> {
     let second = structures.find(|other| other.p_rad_s != first.p_rad_s)?;
     let demands = motions.iter().filter_map(|motion| Some((safe_demand(first, motion)?, motion)));
     let (_, motion) = demands.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let faster = second.p_rad_s / first.p_rad_s;
-    let stronger = second.alpha_rad.tan() / first.alpha_rad.tan();
     let second = Structure { eta: first.eta, ..second.clone() };
-    let responses = [
-        (first, 1.0, 1.0, Ink::Data(0), Dash::Solid),
-        (&second, faster, stronger, Ink::Data(1), Dash::Short),
-    ];
     let (mut own, mut dimensionless) = (Vec::new(), Vec::new());
-    for (structure, faster, stronger, ink, dash) in responses {
+    for (structure, ink, dash) in [(first, Ink::Data(0), Dash::Solid), (&second, Ink::Data(1), Dash::Short)] {
+        let (p, alpha) = (structure.p_rad_s, structure.alpha_rad);
+        let (faster, stronger) = (p / first.p_rad_s, alpha.tan() / first.alpha_rad.tan());
         let samples: Vec<f64> = motion.acceleration_m_s2.iter().map(|sample| stronger * sample).collect();
         let dt_s = motion.dt_s / faster;
-        let (p, alpha) = (structure.p_rad_s, structure.alpha_rad);
         let [p_words, alpha_words] = [p, alpha].map(|value| number::significant(value, 3));
         let name = format!("*p* = {p_words} rad/s, *α* = {alpha_words} rad");
         let layer = |marks: Vec<Mark>| Layer::new(&name, ink, MarkStyle::Line(dash), marks);
-        let marks = envelope(&rotations(structure, &samples, dt_s)?, dt_s, SMOOTH_VALUES);
+        let marks = envelope(&rotations(structure, &samples, dt_s)?, dt_s, VALUES);
         dimensionless.push(layer(marks.iter().map(|mark| Mark::new(p * mark.x, mark.y / alpha)).collect()));
         own.push(layer(marks));
     }

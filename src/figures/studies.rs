@@ -1,41 +1,38 @@
 //! Incremental dynamic analysis and validation.
 
-use rockfrag_core::fragility::{Group, p_overturning};
+use rockfrag_core::fragility::Group;
 use rockfrag_core::rocking::CapacityStatus;
-use rockfrag_core::statistics::numerics::equal_ratios;
+use rockfrag_core::statistics::Range;
 use rockfrag_core::studies::ReliabilityBin;
 
-use super::common::{name_of, observed_shares, scaled_label, title};
+use super::common::{lognormal, name_of, observed_shares, scaled_label, title};
 use crate::chart::{Axis, Dash, Figure, Ink, Layer, Mark, MarkStyle, Panel};
 use crate::table::responses::{CapacityFitRow, CapacityRow, OutcomeWord, Stripe};
 use crate::table::rows::by;
 
-/// The most panels, levels of an analysis, and steps of its curve.
+/// The most panels, and levels of an analysis.
 const PANELS: usize = 24;
 const LEVELS: usize = 15;
-const STEPS: usize = 100;
 
 /// Incremental dynamic analyses: the lowest overturning intensities, and the share overturned at each level.
 pub fn ida(fits: &[CapacityFitRow], rows: &[CapacityRow], stripes: &[Stripe]) -> Figure {
-    let mut levels: Vec<f64> = stripes.iter().map(|stripe| stripe.intensity).collect();
-    levels.sort_unstable_by(f64::total_cmp);
-    levels.dedup();
-    let panels = fits.iter().take(PANELS).map(|fit| capacity_panel(fit, rows, stripes, &levels)).collect();
+    let panels = fits.iter().take(PANELS).map(|fit| capacity_panel(fit, rows, stripes)).collect();
     let caption = "Fractions of the motions that overturn the structure at or below an intensity and, with \
                    95 % limits, at it: fewer, where it survives a stronger version of a motion.";
     Figure::new("ida", "Incremental dynamic analysis", 2, 118.0, panels).explained(caption)
 }
 
-fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe], levels: &[f64]) -> Panel {
+fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]) -> Panel {
     let group = Group::of(&fit.suite, &fit.structure);
     let its = stripes.iter().filter(|of| Group::of(&of.suite, &of.structure) == group);
     let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
     let cases: Vec<(f64, bool)> = its.collect();
-    let shares = observed_shares(&cases, 1, |x| levels.partition_point(|level| *level < x));
+    let levels = Range::over(cases.iter().map(|(intensity, _)| *intensity));
+    let shares = observed_shares(&cases, 1, |level| level.to_bits() as usize);
     let every = shares.len().div_ceil(LEVELS).max(1);
     let its = rows.iter().filter(|of| Group::of(&of.suite, &of.structure) == group);
     let capacities = its.filter_map(|row| match row.found.status {
-        CapacityStatus::Below => row.found.overturning.or(levels.first().copied()),
+        CapacityStatus::Below => row.found.overturning.or(Some(levels.low)),
         _ => row.found.overturning,
     });
     let mut capacities: Vec<f64> = capacities.collect();
@@ -44,16 +41,12 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     for (k, &x) in capacities.iter().enumerate() {
         steps.extend([k, k + 1].map(|k| Mark::new(x, k as f64 / fit.n.max(1) as f64)));
     }
-    let mut curve = Vec::new();
-    if let (Some((theta, beta)), [low, .., high]) = (fit.theta.value.zip(fit.beta.value), levels) {
-        let x = equal_ratios(*low, *high, STEPS);
-        curve.extend(x.map(|x| Mark::new(x, p_overturning(x, theta.ln(), beta))));
-    }
-    let shares = shares.into_iter().step_by(every);
+    let fitted = fit.theta.value.zip(fit.beta.value).filter(|_| levels.low < levels.high).into_iter();
+    let curve = fitted.flat_map(|(theta, beta)| lognormal(levels, theta.ln(), beta));
     let layers = vec![
         Layer::line("lognormal curve", Ink::Data(1), curve),
         Layer::line("at or below the intensity", Ink::Muted, steps),
-        Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares),
+        Layer::new("at the intensity", Ink::Data(0), MarkStyle::Estimates, shares.into_iter().step_by(every)),
     ];
     let (x, y) = (Axis::log(scaled_label(fit.measure)), Axis::fraction("fraction that overturns"));
     Panel::new(&title(&name_of(&fit.structure), fit.suite.as_deref()), x, y, layers)

@@ -1,52 +1,41 @@
 //! How nearly one curve of overturning holds for structures of any p and alpha.
 
-use rockfrag_core::fragility::{Case, Cases, Measure, beta, hybrid_measure, mu, p_overturning};
+use rockfrag_core::fragility::{Case, Cases, Measure, beta, hybrid_measure, mu};
 use rockfrag_core::paper::EXAMPLE_LAMBDA;
-use rockfrag_core::statistics::numerics::equal_ratios;
 use rockfrag_core::statistics::{FEW_EVENTS, Range, probit};
 
-use super::common::{called, label, motions_of, order, rocked};
-use crate::chart::{Axis, Figure, Ink, Layer, Mark, Panel};
+use super::common::{called, label, lognormal, motions, order, rocked};
+use crate::chart::{Axis, Figure, Ink, Layer, Panel};
 use crate::number;
 use crate::table::rows::by;
 
 /// The fewest structures of a suite that are drawn.
 const LEAST_STRUCTURES: usize = 10;
-const STEPS: usize = 60;
-/// Slenderness (rad) at which the colour changes.
-const SLENDERNESS: [f64; 2] = [0.15, 0.3];
+/// How many times the mean median an axis reaches up and down: a decade is as wide in each panel.
+const REACH: f64 = 10.0;
 
 type Over = fn(&Case) -> Option<f64>;
 
-/// A lognormal curve (Eq. 20) over some measure, and the range of its cases.
-struct Curve<'a> {
-    cases: &'a Cases,
+/// A lognormal curve (Eq. 20) over some measure, drawn over the range of its cases.
+struct Curve {
     mu: f64,
     beta: f64,
-    range: Range,
+    line: Layer,
 }
 
-impl<'a> Curve<'a> {
-    fn fit(cases: &'a Cases, measure: Over) -> Option<Curve<'a>> {
-        let known = rocked(cases).filter_map(|(case, overturned)| Some((measure(case)?.ln(), overturned)));
-        let (x, events): (Vec<f64>, Vec<bool>) = known.unzip();
-        let count = events.iter().filter(|event| **event).count();
-        if count.min(events.len() - count) < FEW_EVENTS {
-            return None;
-        }
-        let fit = probit(&[&x], &events).ok()?.fit;
-        let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
-        let range = Range::over(x.iter().map(|x| x.exp()));
-        (beta > 0.0).then_some(Curve { cases, mu, beta, range })
+/// None where a structure overturns, or does not, too seldom.
+fn fit(cases: &Cases, measure: Over) -> Option<Curve> {
+    let known = rocked(cases).filter_map(|(case, overturned)| Some((measure(case)?.ln(), overturned)));
+    let (ln_im, events): (Vec<f64>, Vec<bool>) = known.unzip();
+    let count = events.iter().filter(|event| **event).count();
+    if count.min(events.len() - count) < FEW_EVENTS {
+        return None;
     }
-
-    fn layer(&self) -> Layer {
-        let structure = &self.cases.structure;
-        let step = SLENDERNESS.iter().filter(|alpha| structure.alpha_rad > **alpha).count();
-        let x = equal_ratios(self.range.low, self.range.high, STEPS);
-        let marks = x.map(|x| Mark::new(x, p_overturning(x, self.mu, self.beta)));
-        Layer::line(&called(structure), Ink::Step(step), marks).unlisted()
-    }
+    let fit = probit(&[&ln_im], &events).ok()?.fit;
+    let [mu, beta] = [mu, beta].map(|of| of(fit.coefficients.as_slice()).value);
+    let range = Range::over(ln_im.iter().map(|ln_im| ln_im.exp()));
+    let line = Layer::line(&called(&cases.structure), Ink::Data(0), lognormal(range, mu, beta)).unlisted();
+    (beta > 0.0).then_some(Curve { mu, beta, line })
 }
 
 /// Curves of P_ro over PGV, IM5 and the hybrid measure of the paper's exponent; a row a suite of ten or more.
@@ -59,41 +48,31 @@ pub fn universality(groups: &[Cases]) -> Figure {
     ];
     let mut suites = by(groups, |cases| &cases.suite);
     suites.sort_by_key(|groups| order(groups[0]));
-    let panels = suites.into_iter().flat_map(|groups| {
-        measures.map(|(label, measure)| {
-            let curves: Vec<Curve> = groups.iter().filter_map(|cases| Curve::fit(cases, measure)).collect();
-            (curves.len() >= LEAST_STRUCTURES).then(|| panel(label, &curves, groups.len()))
-        })
-    });
-    let mut panels: Vec<Panel> = panels.flatten().collect();
-    one_width(&mut panels);
+    let mut panels = Vec::new();
+    for groups in suites {
+        for (label, measure) in measures {
+            let curves: Vec<Curve> = groups.iter().filter_map(|cases| fit(cases, measure)).collect();
+            if curves.len() >= LEAST_STRUCTURES {
+                panels.push(panel(label, curves, &groups));
+            }
+        }
+    }
     let caption = "Lognormal curves of structures that at least ten of one set (one seed) of motions \
-                   overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between them over \
-                   their mean *β*. Over a measure for which curves are universal, all medians *θ* are one.";
+                   overturn and ten do not: their number, and the standard deviation (sd) of ln *θ* between \
+                   them over their mean *β*. Over a measure for which curves are universal, all medians *θ* \
+                   are one.";
     let title = "Universality of the curves of overturning";
     Figure::new("universality", title, 3, 118.0, panels).explained(caption)
 }
 
-/// Makes a decade as wide in each panel.
-fn one_width(panels: &mut [Panel]) {
-    let span = |panel: &Panel| Range::over(panel.drawn().flat_map(|layer| &layer.marks).map(|mark| mark.x));
-    let widest = panels.iter().map(|panel| span(panel).high / span(panel).low).fold(1.0, f64::max);
-    for panel in panels {
-        let (middle, half) = ((span(panel).low * span(panel).high).sqrt(), (1.1 * widest).sqrt());
-        panel.x.range = Some([middle / half, middle * half]);
-    }
-}
-
-fn panel(label: &str, curves: &[Curve], structures: usize) -> Panel {
+fn panel(label: &str, curves: Vec<Curve>, groups: &[&Cases]) -> Panel {
     let n = curves.len() as f64;
     let mean = |of: fn(&Curve) -> f64| curves.iter().map(of).sum::<f64>() / n;
     let (mu, beta) = (mean(|curve| curve.mu), mean(|curve| curve.beta));
     let sd = (curves.iter().map(|curve| (curve.mu - mu).powi(2)).sum::<f64>() / (n - 1.0)).sqrt();
-    let suite = motions_of(curves[0].cases.suite.as_deref().unwrap_or("motions"));
-    let title = format!("{suite}, {n} of {structures}: sd / *β* {}", number::fixed(sd / beta, 2));
-    let [low, high] = SLENDERNESS;
-    let colours = [format!("*α* ≤ {low} rad"), format!("{low} to {high} rad"), format!("> {high} rad")];
-    let keys = colours.iter().enumerate().map(|(step, name)| Layer::line(name, Ink::Step(step), []));
-    let layers = keys.chain(curves.iter().map(Curve::layer)).collect();
-    Panel::new(&title, Axis::log(label), Axis::fraction("*P*_{ro}"), layers)
+    let ratio = number::fixed(sd / beta, 2);
+    let title = format!("{}, {n} of {}: sd / *β* {ratio}", motions(groups[0]), groups.len());
+    let layers = curves.into_iter().map(|curve| curve.line).collect();
+    let x = Axis::log(label).over(mu.exp() / REACH, mu.exp() * REACH);
+    Panel::new(&title, x, Axis::fraction("*P*_{ro}"), layers)
 }
