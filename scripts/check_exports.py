@@ -32,8 +32,7 @@ run = functools.partial(call, rockfrag)
 def reached(place, im, intensity):
     """The probability of reaching LS1, LS2 and LS3 at this PGA (g) or PGV (m/s)."""
     (row,) = csv.DictReader(run("evaluate", *place, f"--{im}={intensity!r}", "--format=csv").splitlines())
-    rocking = 1 - float(row["p_nr"])
-    return [rocking, float(row["p_f"] or 0), rocking * float(row["p_ro"] or 0)]
+    return [float(row[f"p_{state}"] or 0) for state in ("rocking", "failure", "overturning")]
 
 
 def openquake(place, im, folder):

@@ -206,7 +206,7 @@ def evaluated(rows, p, alpha, eta):
     files = "--in", "motions.csv", "--fits", "fits", "--out", "out.parquet", "--force"
     run("evaluate", *files, "--p", p, "--alpha", alpha, "--eta", eta)
     found = pl.read_parquet("out.parquet")
-    return ((1 - found["p_nr"]) * found["p_ro"]).fill_null(0.0).to_numpy()
+    return found["p_overturning"].to_numpy()
 
 
 def calibrated(rows, chosen, p, alpha, eta):

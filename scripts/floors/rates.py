@@ -32,7 +32,7 @@ def rate(p_of_motions):
 
 def predicted(width, height, *floor):
     p = call("evaluate", "--in", folder / "peaks.parquet", "--width", width, "--height", height, *floor)
-    return rate(p["p_ro"].fill_null(0.0) * (1 - p["p_nr"]))
+    return rate(p["p_overturning"])
 
 
 def scaled():

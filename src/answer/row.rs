@@ -90,16 +90,13 @@ fn centre_height(shape: &Shape) -> Option<f64> {
     Some(shape.centre_height.unwrap_or(0.5 * height))
 }
 
-/// The probabilities of the paper's tree under a motion (Eqs. 8 to 12); none where they are not known.
+/// Of the paper's tree under a motion (Eqs. 8 to 12) what is given rocking; none where it is not known.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct TreeColumns {
     pub pga_m_s2: Option<f64>,
     pub pgv_m_s: Option<f64>,
-    pub p_nr: Option<f64>,
     pub p_ex: Interval<Option<f64>>,
     pub p_ro: Interval<Option<f64>>,
-    pub p_f_r: Interval<Option<f64>>,
-    pub p_f: Option<f64>,
 }
 
 impl TreeColumns {
@@ -109,7 +106,6 @@ impl TreeColumns {
         object: &RockingObject,
         states: LimitStates<Interval<Option<f64>>>,
     ) -> TreeColumns {
-        let rocking = states.rocking.value;
         // The demand has a probability of its own under a motion that is known.
         let p_ex = match (&object.directions[..], motion.pga_m_s2, motion.pgv_m_s) {
             _ if motion.is_still() => None,
@@ -119,19 +115,12 @@ impl TreeColumns {
             }
             _ => None,
         };
-        // Over that of rocking; none where that is 0.
-        let given_rocking = |p: Interval<Option<f64>>| {
-            let rocking = rocking.filter(|rocking| *rocking > 0.0);
-            rocking.map_or(Interval::default(), |rocking| p.map(|p| p / rocking))
-        };
+        let rocking = states.rocking.value.filter(|rocking| *rocking > 0.0);
         TreeColumns {
             pga_m_s2: motion.pga_m_s2,
             pgv_m_s: motion.pgv_m_s,
-            p_nr: rocking.map(|p| 1.0 - p),
             p_ex: p_ex.and_then(|given| given.p_ex).into(),
-            p_ro: given_rocking(states.overturning),
-            p_f_r: given_rocking(states.failure),
-            p_f: states.failure.value,
+            p_ro: rocking.map_or(Interval::default(), |rocking| states.overturning.map(|p| p / rocking)),
         }
     }
 }

@@ -14,8 +14,9 @@ use crate::number::{PERCENT, RATE};
 
 pub fn document(table: &AnswerTable, answer: &Answer, detail: &Detail) -> Document {
     let when = answer.when().unwrap_or_default();
-    let is_rocking = answer.tree.p_nr.filter(|p_nr| *p_nr < 1.0);
-    let uplift = is_rocking.map(|_| format!("It {}.", answer.uplift()));
+    let is_under_motion = answer.tree.pga_m_s2.or(answer.tree.pgv_m_s).is_some();
+    let is_rocking = is_under_motion && answer.p.p_rocking > Some(0.0);
+    let uplift = is_rocking.then(|| format!("It {}.", answer.uplift()));
     Document {
         title: answer.object.title(),
         place: format!("Stands {}{}", answer.object.place_in_building(), table.conditions()),

@@ -164,7 +164,7 @@ fn nothing_rocks_below_uplift_or_where_nothing_moves() {
         "--in still.csv",
     ] {
         let row = &evaluated(folder.path(), &format!("{BLOCK} {motion}"))[0];
-        assert_eq!((number(row, "p_nr"), number(row, "p_f")), (1.0, 0.0), "{motion}: {row}");
+        assert_eq!((number(row, "p_rocking"), number(row, "p_failure")), (0.0, 0.0), "{motion}: {row}");
         assert!(row["p_ro"].is_null(), "nothing is given rocking");
         let (text, _) = succeed(folder.path(), &format!("evaluate {BLOCK} {motion}"));
         assert!(!text.contains("NaN") && !text.contains(" - %"), "{text}");
@@ -179,7 +179,7 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
     let rows = |arguments: &str| evaluated(folder.path(), &format!("{BLOCK} --in {arguments} --force"));
     let (found, expected) = (rows("table.csv"), rows("rim.csv"));
     for (row, (found, expected)) in found.iter().zip(&expected).enumerate() {
-        let [found_p, expected_p] = [found, expected].map(|row| number(row, "p_f"));
+        let [found_p, expected_p] = [found, expected].map(|row| number(row, "p_failure"));
         assert!(found_p == expected_p || near(found_p, expected_p, 1e-6), "row {row}");
         let is_warned = found["warnings"].as_str().is_some_and(|text| text.contains(Warning::AtRim.text()));
         assert_eq!(is_warned, (2..5).contains(&row), "row {row}");
@@ -187,11 +187,14 @@ fn rows_beyond_any_record_are_answered_at_the_rim() {
     let stations = "station,PGA,PGV,PGD,distance (km)\n,g,m/s,,\na,0.4,0.5,8,12\nb,0.4,-999,,\n";
     std::fs::write(folder.path().join("stations.csv"), stations).unwrap();
     let stations = rows("stations.csv --ignore PGD");
-    assert!(number(&stations[0], "p_f") > 0.0 && stations[1]["p_f"].is_null());
+    assert!(number(&stations[0], "p_failure") > 0.0 && stations[1]["p_failure"].is_null());
     // A magnitude holds for rows without one.
     let with = evaluated(folder.path(), &format!("{BLOCK} --pga 0.4 --pgv 0.5 --magnitude 7.5"));
-    let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_f");
-    assert!(near(of_row, number(&with[0], "p_f"), 1e-9) && !near(of_row, number(&found[0], "p_f"), 1e-3));
+    let of_row = number(&rows("table.csv --magnitude 7.5")[0], "p_failure");
+    assert!(
+        near(of_row, number(&with[0], "p_failure"), 1e-9)
+            && !near(of_row, number(&found[0], "p_failure"), 1e-3)
+    );
 }
 
 #[test]

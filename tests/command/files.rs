@@ -67,7 +67,7 @@ fn a_file_that_another_program_rewrote_is_not_taken_for_ours() {
 #[test]
 fn a_view_is_written_again_if_it_names_rockfrag_or_a_run_names_it() {
     let folder = folder(&[
-        ("mine.csv", "object,p_nr,note\ncabinet,1,checked with rockfrag\n"),
+        ("mine.csv", "object,p_rocking,note\ncabinet,1,checked with rockfrag\n"),
         ("notes.html", "<html><title>rockfrag</title></html>"),
         ("drawing.svg", "<svg><desc>of rockfrag</desc></svg>"),
         ("photo.png", "rockfrag"),

@@ -69,7 +69,7 @@ fn ground_motion_fields_are_motions_with_a_rate() {
     let same = answer(&[("joint.csv", joint)], "");
     let point = &evaluated(folder(&[]).path(), &format!("{BLOCK} --pga 0.5 --pgv 0.6"))[0];
     assert_eq!(number(&row, "rocking_per_year"), 0.002);
-    for (rate, p) in [("overturning_per_year", "p_ro"), ("failure_per_year", "p_f_r")] {
+    for (rate, p) in [("overturning_per_year", "p_overturning"), ("failure_per_year", "p_failure")] {
         assert!(near(number(&same, rate), 0.002 * number(point, p), 1e-9), "{rate}");
     }
     assert!(near(number(&row, "overturning_per_year"), number(&same, "overturning_per_year"), 1e-12));

@@ -14,7 +14,7 @@ use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::{Warning, Warnings};
 
 use super::Evaluate;
-use crate::answer::{TreeColumns, UncertaintyColumns};
+use crate::answer::{StateColumns, TreeColumns, UncertaintyColumns};
 use crate::inputs::Reader;
 use crate::inputs::intensities;
 use crate::number::counted;
@@ -98,8 +98,8 @@ fn with_probabilities(
     };
     let evaluate = |row: usize| {
         let Some(given) = peaks[row] else {
-            let warnings = Some(NO_PEAKS.to_string());
-            return Ok((TreeColumns::default(), UncertaintyColumns { warnings, ..Default::default() }));
+            let unknown = UncertaintyColumns { warnings: Some(NO_PEAKS.to_string()), ..Default::default() };
+            return Ok(((StateColumns::default(), TreeColumns::default()), unknown));
         };
         let (rocking_object, mut warnings) = models.rocking_object(&objects[row])?;
         let peaks = given.clamp_to_recorded();
@@ -113,18 +113,20 @@ fn with_probabilities(
         };
         warnings.extend(unusual_motions(motion.mw, None));
         let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking_object);
-        let tree = TreeColumns::new(&motion, &rocking_object, states);
-        Ok((tree, UncertaintyColumns::new(warnings, &budget, magnitude, peaks)))
+        let probabilities = (StateColumns::new(states), TreeColumns::new(&motion, &rocking_object, states));
+        Ok((probabilities, UncertaintyColumns::new(warnings, &budget, magnitude, peaks)))
     };
     let rows: Vec<_> = (0..mw.len()).into_par_iter().map(evaluate).collect();
     // The first error in the order of the rows, whichever thread meets one first.
     let rows: Vec<_> = rows.into_iter().collect::<anyhow::Result<_>>()?;
-    let (trees, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    let (probabilities, uncertainties): (Vec<_>, Vec<_>) = rows.into_iter().unzip();
+    let (states, trees): (Vec<_>, Vec<_>) = probabilities.into_iter().unzip();
     let warned = uncertainties.iter().enumerate().flat_map(|(row, of)| {
         let place = format!("row {}", batch.first_row + row + 1);
         of.warnings().into_iter().map(move |warning| (warning, place.clone()))
     });
     let own = rows::side_by_side(&[
+        rows::batch::<StateColumns>(&states)?,
         rows::batch::<TreeColumns>(&trees)?,
         rows::batch::<UncertaintyColumns>(&uncertainties)?,
     ])?;
