@@ -37,18 +37,16 @@ pub const PGV_PGA_RECORDED_S: RangeInclusive<f64> = 0.005..=1.0;
 /// PGV/PGA, s, of the motions of a site: that of records, without its rare ends.
 pub const PGV_PGA_OF_SITE_S: RangeInclusive<f64> = 0.01..=0.5;
 
-/// What a person gives of motions and of a site, each with what is expected.
-pub const GIVEN_PGA_G: (RangeInclusive<f64>, &str) =
-    (0.0..=STRONGEST_PGA_G, "g, up to 4.5, the strongest ever recorded: is it in m/s2?");
-pub const GIVEN_PGV_M_S: (RangeInclusive<f64>, &str) =
-    (0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, more than was ever recorded: is it in cm/s?");
-pub const GIVEN_MAGNITUDE: (RangeInclusive<f64>, &str) = (MAGNITUDES, "a moment magnitude");
-pub const GIVEN_VS30_M_S: (RangeInclusive<f64>, &str) = (100.0..=2500.0, "Vs30 in m/s, from 100 to 2500");
-pub const GIVEN_RATIO_S: (RangeInclusive<f64>, &str) =
-    (PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of PGA in m/s2 and PGV in m/s");
-pub const GIVEN_YEARS: (RangeInclusive<f64>, &str) = (1e-3..=1e6, "years above 0");
-pub const GIVEN_LIMIT_STATE: (RangeInclusive<f64>, &str) =
-    (1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1, such as 0.1");
+/// What a person gives of motions and of a site: its range, and what is expected.
+pub type Expected = (RangeInclusive<f64>, &'static str);
+pub const GIVEN_PGA_G: Expected = (0.0..=STRONGEST_PGA_G, "g, up to 4.5, the most recorded: is it in m/s2?");
+pub const GIVEN_PGV_M_S: Expected =
+    (0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, over all recorded: is it in cm/s?");
+pub const GIVEN_MAGNITUDE: Expected = (MAGNITUDES, "a moment magnitude");
+pub const GIVEN_VS30_M_S: Expected = (100.0..=2500.0, "Vs30 in m/s, from 100 to 2500");
+pub const GIVEN_RATIO_S: Expected = (PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of m/s and m/s2");
+pub const GIVEN_YEARS: Expected = (1e-3..=1e6, "years above 0");
+pub const GIVEN_LIMIT_STATE: Expected = (1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1");
 
 /// Time steps that the solver takes, s.
 pub const TIME_STEPS_S: RangeInclusive<f64> = 1e-6..=10.0;

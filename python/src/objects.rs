@@ -3,7 +3,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::CString;
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -24,7 +23,7 @@ use rockfrag_core::hazard::{self, GenericSites, GroundMotion, Hazard, unusual_mo
 use rockfrag_core::motion::{IntensityMeasures, Peaks};
 use rockfrag_core::object::{Field, Object, Place, RockingObject};
 use rockfrag_core::plausibility::{
-    GIVEN_LIMIT_STATE, GIVEN_MAGNITUDE, GIVEN_PGA_G, GIVEN_PGV_M_S, GIVEN_RATIO_S, GIVEN_VS30_M_S,
+    Expected, GIVEN_LIMIT_STATE, GIVEN_MAGNITUDE, GIVEN_PGA_G, GIVEN_PGV_M_S, GIVEN_RATIO_S, GIVEN_VS30_M_S,
     GIVEN_YEARS,
 };
 use rockfrag_core::records::implausibility::rarity;
@@ -278,7 +277,7 @@ fn motions(
 /// Refuses what is out of range.
 fn expect<'a>(
     name: &str,
-    (range, expected): (RangeInclusive<f64>, &str),
+    (range, expected): Expected,
     values: impl IntoIterator<Item = &'a f64>,
 ) -> PyResult<()> {
     match values.into_iter().find(|value| !range.contains(value)) {

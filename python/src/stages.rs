@@ -7,6 +7,7 @@ use clap::{Args as _, Command, FromArgMatches};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use rockfrag::cli::calls;
+use rockfrag::inputs::Reading;
 use rockfrag::pipeline::call::{Call, Planned};
 use rockfrag::pipeline::context::Common;
 use rockfrag::pipeline::options::Given;
@@ -61,7 +62,8 @@ pub fn call(
 /// Runs a call unless its files are up to date. `made` gathers the keys of the files of a run.
 fn make(call: &Call, common: &Common, made: &mut Planned) -> anyhow::Result<Made> {
     let made = call.run(common, made)?.made;
-    Ok((call.name.clone(), call.stage.files().written, made.summary, made.warnings.lines()))
+    let warnings = made.readings.iter().filter_map(Reading::gaps).chain(made.warnings.lines());
+    Ok((call.name.clone(), call.stage.files().written, made.summary, warnings.collect()))
 }
 
 /// Runs all stages of a pipeline file that are not up to date.

@@ -57,6 +57,8 @@ def test_lists_of_people_are_tables_too(motions):
     made = rockfrag.simulate(motions, structures=people).to_polars()
     assert made["structure"].unique().sort().to_list() == ["a", "b"]
     assert rockfrag.simulate(motions, structures="paper").to_polars().height == 560
+    with pytest.warns(UserWarning, match="column 'Frcition'"):
+        rockfrag.simulate(motions, structures=people.assign(Frcition=0.1))
 
 
 def test_a_part_stands_beside_its_table(responses):

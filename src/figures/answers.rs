@@ -134,10 +134,10 @@ fn sketch(object: &ObjectColumns) -> Option<Panel> {
     Some(panel.explained(format!("To scale, {}; it tips over its weaker side.", object.place())))
 }
 
-/// The curve of a limit state, in percent; with its limits if they are wanted.
+/// The curve of a limit state, in percent, from where it can be seen; with its limits if they are wanted.
 fn curve(over: Peak, points: &[FragilityPoint], state: LimitState, has_limits: bool) -> Vec<Mark> {
     let (_, unit, _) = over.name_and_unit();
-    let marks = points.iter().filter_map(|point| {
+    let marks = points.iter().filter(|point| point.p.get(state).value > Some(1e-3)).filter_map(|point| {
         let (x, p) = (point.intensity / unit, point.p.get(state).map(|p| 100.0 * p));
         Some(if has_limits { estimate(x, p.estimate()?) } else { Mark::new(x, p.value?) })
     });
@@ -162,7 +162,7 @@ fn curves_panel(over: Peak, layers: Vec<Layer>, which: &str) -> Panel {
 
 /// The limit states of one object, with the usual intensities of a site.
 fn fragility_panel(over: Peak, points: &[FragilityPoint], of: &Answer, drawn: Option<&AtSite>) -> Panel {
-    let too_far = of.object.too_far().replace("its slenderness", "*α*");
+    let too_far = of.object.too_far().replace("its slenderness angle", "*α*");
     let [failure, overturning] = [(LimitState::Failure, false), (LimitState::Overturning, true)]
         .map(|(state, has_limits)| curve(over, points, state, has_limits));
     let layers = vec![

@@ -11,6 +11,7 @@ use clap::builder::BoolishValueParser;
 use clap::parser::ValueSource;
 use clap::{Arg, ArgAction, ArgMatches, Command, ValueHint};
 use rockfrag_core::object::{Object, Restitution, Wall};
+use rockfrag_core::plausibility::Expected;
 use rockfrag_core::spelling::hint;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value, json};
@@ -203,9 +204,7 @@ pub fn number<T: FromStr + PartialOrd + Clone>(
 }
 
 /// A parser of what a person gives.
-pub fn given(
-    (range, expected): (RangeInclusive<f64>, &'static str),
-) -> impl Fn(&str) -> Result<f64, String> + Clone {
+pub fn given((range, expected): Expected) -> impl Fn(&str) -> Result<f64, String> + Clone {
     number(range, expected)
 }
 
