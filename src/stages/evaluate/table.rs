@@ -9,7 +9,7 @@ use rayon::prelude::*;
 use rockfrag_core::fragility::Peak;
 use rockfrag_core::hazard::{GroundMotion, MotionProbabilities, unusual_motions};
 use rockfrag_core::motion::{Peaks, validate_medians};
-use rockfrag_core::object::{Object, Restitution};
+use rockfrag_core::object::{Object, Restitution, RockingObject};
 use rockfrag_core::rocking::Structure;
 use rockfrag_core::warning::{Warning, Warnings};
 
@@ -55,6 +55,7 @@ pub fn evaluate(
         let both = format!("column {column} and options of a structure; leave out the one or the other");
         bail!(UsageError::because(format!("{}: {both}", path.display())));
     }
+    let given = given.first().map(|object| models.rocking_object(object)).transpose()?;
     let peaks = batches.iter().map(peaks).collect::<anyhow::Result<Vec<_>>>()?;
     // A typical motion shows a wrong unit.
     let given_peaks: Vec<Peaks> = peaks.iter().flatten().copied().flatten().collect();
@@ -62,7 +63,7 @@ pub fn evaluate(
     let bar = context.bar(batches.iter().map(|batch| batch.rows.num_rows()).sum());
     let mut evaluated = Vec::new();
     for (batch, peaks) in batches.iter().zip(&peaks) {
-        let (rows, warnings) = with_probabilities(batch, peaks, given.first(), call, models)?;
+        let (rows, warnings) = with_probabilities(batch, peaks, given.as_ref(), call, models)?;
         context.warn(warnings);
         evaluated.push(rows);
         bar.advance(batch.rows.num_rows())?;
@@ -83,28 +84,30 @@ const STRUCTURE: [&str; 7] = ["p_rad_s", "alpha_rad", "eta", "width", "height", 
 fn with_probabilities(
     batch: &Batch,
     peaks: &[Option<Peaks>],
-    given: Option<&Object>,
+    given: Option<&(RockingObject, Vec<Warning>)>,
     call: &Evaluate,
     models: &Models,
 ) -> anyhow::Result<(RecordBatch, Warnings)> {
     let mw = batch.numbers("mw")?;
     let parametric = |of: &Structure| Object::with_parameters(of, Restitution::Number(of.eta));
-    let objects: Vec<Object> = match given {
-        Some(object) => vec![object.clone(); mw.len()],
-        None => {
-            let structures = batch.structures(&vec!["structure".into(); mw.len()])?;
-            structures.iter().map(|of| parametric(of).at(&call.place)).collect()
-        }
-    };
+    let names = vec!["structure".into(); mw.len()];
+    let structures = if given.is_some() { Vec::new() } else { batch.structures(&names)? };
     let evaluate = |row: usize| {
-        let Some(given) = peaks[row] else {
+        let Some(motion) = peaks[row] else {
             let unknown = UncertaintyColumns { warnings: Some(NO_PEAKS.to_string()), ..Default::default() };
             return Ok(((StateColumns::default(), TreeColumns::default()), unknown));
         };
-        let (rocking_object, mut warnings) = models.rocking_object(&objects[row])?;
-        let peaks = given.clamp_to_recorded();
-        warnings.extend(rocking_object.warnings(peaks));
-        warnings.extend((peaks != given).then_some(Warning::AtRim));
+        let own;
+        let (rocking_object, about_model) = match given {
+            Some(given) => given,
+            None => {
+                own = models.rocking_object(&parametric(&structures[row]).at(&call.place))?;
+                &own
+            }
+        };
+        let peaks = motion.clamp_to_recorded();
+        let mut warnings = [about_model.clone(), rocking_object.warnings(peaks)].concat();
+        warnings.extend((peaks != motion).then_some(Warning::AtRim));
         let motion = GroundMotion {
             pga_m_s2: Some(peaks.pga_m_s2),
             pgv_m_s: Some(peaks.pgv_m_s),
@@ -112,8 +115,8 @@ fn with_probabilities(
             vs30_m_s: None,
         };
         warnings.extend(unusual_motions(motion.mw, None));
-        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(&rocking_object);
-        let probabilities = (StateColumns::new(states), TreeColumns::new(&motion, &rocking_object, states));
+        let MotionProbabilities { states, budget, magnitude } = motion.probabilities(rocking_object);
+        let probabilities = (StateColumns::new(states), TreeColumns::new(&motion, rocking_object, states));
         Ok((probabilities, UncertaintyColumns::new(warnings, &budget, magnitude, peaks)))
     };
     let rows: Vec<_> = (0..mw.len()).into_par_iter().map(evaluate).collect();
