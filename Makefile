@@ -65,12 +65,12 @@ test:
 wheel:
 	rm -f $(DIST)/*.whl
 	python3 -m venv $(VENV)
-	$(BIN)/pip wheel --quiet --no-deps --wheel-dir $(DIST) ./python \
+	$(BIN)/python -m pip wheel --quiet --no-deps --wheel-dir $(DIST) ./python \
 	    --config-settings build-args="--locked --compatibility $(COMPATIBILITY)"
 
 check-wheel:
 	python3 -m venv --clear $(VENV)
-	$(BIN)/pip install --quiet --only-binary :all: "$$(ls $(DIST)/*.whl)[test]"
+	$(BIN)/python -m pip install --quiet --only-binary :all: "$$(ls $(DIST)/*.whl)[test]"
 	$(BIN)/python -m pytest --quiet python
 	python3 scripts/check_docs.py $(BIN)
 
