@@ -39,12 +39,13 @@ pub const PGV_PGA_OF_SITE_S: RangeInclusive<f64> = 0.01..=0.5;
 
 /// What a person gives of motions and of a site: its range, and what is expected.
 pub type Expected = (RangeInclusive<f64>, &'static str);
-pub const GIVEN_PGA_G: Expected = (0.0..=STRONGEST_PGA_G, "g, up to 4.5, the most recorded: is it in m/s2?");
+pub const GIVEN_PGA_G: Expected =
+    (0.0..=STRONGEST_PGA_G, "g, up to 4.5 (no record has more): is it in m/s2?");
 pub const GIVEN_PGV_M_S: Expected =
-    (0.0..=STRONGEST_PGV_M_S, "m/s, up to 5, over all recorded: is it in cm/s?");
+    (0.0..=STRONGEST_PGV_M_S, "m/s, up to 5 (no record has more): is it in cm/s?");
 pub const GIVEN_MAGNITUDE: Expected = (MAGNITUDES, "a moment magnitude");
 pub const GIVEN_VS30_M_S: Expected = (100.0..=2500.0, "Vs30 in m/s, from 100 to 2500");
-pub const GIVEN_RATIO_S: Expected = (PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5, of m/s and m/s2");
+pub const GIVEN_RATIO_S: Expected = (PGV_PGA_OF_SITE_S, "PGV/PGA in s, from 0.01 to 0.5 (m/s over m/s2)");
 pub const GIVEN_YEARS: Expected = (1e-3..=1e6, "years above 0");
 pub const GIVEN_LIMIT_STATE: Expected = (1e-6..=1.0, "a demand |theta|max / alpha above 0 and up to 1");
 

@@ -28,6 +28,7 @@ fn capacity_panel(fit: &CapacityFitRow, rows: &[CapacityRow], stripes: &[Stripe]
     let its = its.map(|stripe| (stripe.intensity, stripe.outcome == OutcomeWord::Overturned));
     let cases: Vec<(f64, bool)> = its.collect();
     let levels = Range::over(cases.iter().map(|(intensity, _)| *intensity));
+    // Each level is a bin.
     let shares = observed_shares(&cases, 1, |level| level.to_bits() as usize);
     let every = shares.len().div_ceil(LEVELS).max(1);
     let its = rows.iter().filter(|of| Group::of(&of.suite, &of.structure) == group);

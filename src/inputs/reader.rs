@@ -101,7 +101,8 @@ impl<'a> Reader<'a> {
         let headings = self.renames.iter().map(|rename| &rename.heading).chain(self.ignored);
         let mut unused = headings.filter(|heading| !self.seen.contains(heading));
         unused.next().map_or(Ok(()), |heading| {
-            Err(InputError::Renamed { heading: heading.clone(), seen: self.seen.join(", ") })
+            let seen = if self.seen.is_empty() { "none".to_string() } else { self.seen.join(", ") };
+            Err(InputError::Renamed { heading: heading.clone(), seen })
         })
     }
 }

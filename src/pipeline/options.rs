@@ -40,7 +40,8 @@ fn first_of(options: &'static [&'static str], given: &Given) -> Option<&'static 
 }
 
 impl Rule {
-    pub fn broken(&self, given: &Given) -> Option<String> {
+    /// What is wrong with the options given to a command.
+    pub fn broken(&self, given: &Given, command: &Command) -> Option<String> {
         match self {
             Rule::Either(these, those) => {
                 let (one, other) = first_of(these, given).zip(first_of(those, given))?;
@@ -48,7 +49,10 @@ impl Rule {
             }
             Rule::Needs(_, those) if first_of(those, given).is_some() => None,
             Rule::Needs(these, those) => {
-                Some(format!("--{} needs --{}", first_of(these, given)?, those.join(" or --")))
+                let option = first_of(these, given)?;
+                let has = |of: &&str| command.get_arguments().any(|arg| name_of(arg) == *of);
+                let needed: Vec<&str> = those.iter().copied().filter(has).collect();
+                Some(format!("--{option} needs --{}", needed.join(" or --")))
             }
         }
     }

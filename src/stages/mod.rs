@@ -104,7 +104,7 @@ impl StageKind {
     /// are in `folder`.
     pub fn call(&self, section: &Given, user: &Given, folder: &Path) -> anyhow::Result<Call> {
         let given = merge(section, user, &RULES);
-        if let Some(problem) = RULES.iter().find_map(|rule| rule.broken(&given)) {
+        if let Some(problem) = RULES.iter().find_map(|rule| rule.broken(&given, &self.command)) {
             return Err(UsageError::because(problem));
         }
         let mut required = self.command.get_arguments().filter(|arg| arg.is_required_set()).map(name_of);
